@@ -1,1 +1,43 @@
-//! (being written)
+//! Scenarios: RON files whose slots name plugins, turned into typed values with errors that tell
+//! where, what and what to do.
+//!
+//! The text of a scenario is loaded as a [`Source`], which resolves `base:` and `set:` and the
+//! `--set path=value` of a command line by splicing text. [`Source::parse`] reads the core types,
+//! which hold a `&ron::value::RawValue` wherever a plugin goes; [`Source::build`] then reads each
+//! slot as the [`Plugin`] that it names. Crates add plugins with [`register!`]; the program that
+//! reads scenarios need not know them.
+//!
+//! The number types ([`Positive`], [`Vec3`], [`Profile`] ..) refuse what makes no sense while ron
+//! still knows the place.
+
+mod derived;
+mod diagnose;
+mod fields;
+mod finding;
+mod follow;
+mod nested;
+mod number;
+mod overrides;
+mod patchwork;
+mod path;
+mod plugin;
+mod problem;
+mod profile;
+mod repair;
+mod scan;
+mod source;
+mod suggest;
+mod vector;
+
+pub use fields::FieldDoc;
+pub use nested::Nested;
+pub use number::{Count, Finite, NonNegative, Positive};
+pub use plugin::{Build, Hook, Plugin, plugins};
+pub use problem::{Problem, Problems};
+pub use profile::Profile;
+pub use source::{Source, options};
+pub use vector::{Direction, Vec3};
+
+// For `register!`, which expands in crates that may not depend on these themselves.
+#[doc(hidden)]
+pub use {inventory, schemars};

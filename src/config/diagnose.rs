@@ -1,0 +1,183 @@
+//! From ron's errors to findings that say what is allowed and what was probably meant.
+
+use ron::error::{Error, Position, SpannedError};
+
+use crate::finding::{Finding, Span};
+use crate::scan::{Body, Node};
+use crate::suggest;
+
+/// What a refusal by ron means. `root` is the scanned `text`.
+pub(crate) fn diagnose(text: &str, root: &Node, error: &SpannedError) -> Finding {
+    let start = offset(text, error.span.start);
+    let end = offset(text, error.span.end);
+    let taken = taken(text, root, start..end.max(start));
+    let next = next(text, root, end);
+    match &error.code {
+        Error::NoSuchStructField {
+            expected,
+            found,
+            outer,
+        } => Finding::new(
+            taken,
+            format!("unknown field `{found}`{}", inside(outer.as_ref())),
+        )
+        .hint(suggest::remedy(found, expected, "allowed fields")),
+        Error::NoSuchEnumVariant {
+            expected,
+            found,
+            outer,
+        } => Finding::new(
+            taken,
+            format!("`{found}` is not one of the choices{}", of(outer.as_ref())),
+        )
+        .hint(suggest::remedy(found, expected, "allowed")),
+        Error::MissingStructField { field, outer } => {
+            let bracket = smallest(root, &|node| is_bracket(node) && node.span.contains(&end));
+            let message = format!("missing field `{field}`{}", inside(outer.as_ref()));
+            Finding::new(bracket.map_or(next, |node| head(node)), message)
+                .hint(format!("add `{field}: ..`"))
+        }
+        Error::DuplicateStructField { field, .. } => {
+            Finding::new(taken, format!("field `{field}` is given twice"))
+                .hint("remove one of them")
+        }
+        Error::ExpectedDifferentStructName { expected, found } => {
+            Finding::new(next, format!("expected `{expected}`, found `{found}`")).hint(format!(
+                "write `{expected}(..)`, or the bracket without a name"
+            ))
+        }
+        Error::InvalidValueForType { expected, found } => {
+            Finding::new(taken, format!("expected {expected}, found {found}"))
+        }
+        Error::ExpectedDifferentLength { expected, found } => {
+            let bracket = smallest(root, &|node| is_bracket(node) && node.span.contains(&end));
+            let span = bracket.map_or(next, |node| node.span.clone());
+            Finding::new(span, format!("expected {expected}, found {found} of them"))
+        }
+        Error::Message(message) => match Finding::unpack(message) {
+            Some(packed) => packed.shifted(taken.start),
+            None => with_remedy(taken, message),
+        },
+        code => expected(text, next, code),
+    }
+}
+
+/// A message of a `Deserialize` may carry its remedy after `; `, as those of this crate do.
+fn with_remedy(span: Span, message: &str) -> Finding {
+    match message.split_once("; ") {
+        Some((message, hint)) => Finding::new(span, message).hint(hint),
+        None => Finding::new(span, message),
+    }
+}
+
+/// Errors that ron raises before it has taken the offending value.
+fn expected(text: &str, span: Span, code: &Error) -> Finding {
+    let found = match &text[span.clone()] {
+        "" => "the end of the text".to_owned(),
+        found if found.chars().count() > 40 || found.contains('\n') => "something else".to_owned(),
+        found => format!("`{found}`"),
+    };
+    let name;
+    let (what, hint) = match code {
+        Error::ExpectedFloat => ("a number", "for example 0.5, -2 or 1e-9"),
+        Error::ExpectedInteger => ("a whole number", "for example 25"),
+        Error::ExpectedBoolean => ("`true` or `false`", "write it without quotes"),
+        Error::ExpectedString => ("a text", "texts stand in double quotes: \"like this\""),
+        Error::ExpectedArray => ("a list", "lists stand in square brackets: [1, 2, 3]"),
+        Error::ExpectedMap => ("a map", "maps stand in curly brackets: {\"key\": value}"),
+        Error::ExpectedStructLike => ("`(`", "write the values in round brackets: (..)"),
+        Error::ExpectedNamedStructLike(named) => {
+            name = format!("`{named}(..)` or `(..)`");
+            (
+                name.as_str(),
+                "round brackets are needed, even if nothing stands in them",
+            )
+        }
+        Error::ExpectedStructLikeEnd => ("`)`", "are there more values than allowed?"),
+        Error::ExpectedIdentifier => ("a name", "names are written without quotes"),
+        code => return Finding::new(span, lower_first(&code.to_string())),
+    };
+    Finding::new(span, format!("expected {what}, found {found}")).hint(hint)
+}
+
+fn lower_first(message: &str) -> String {
+    let mut chars = message.chars();
+    chars.next().map_or_else(String::new, |first| {
+        first.to_lowercase().chain(chars).collect()
+    })
+}
+
+fn inside(outer: Option<&String>) -> String {
+    outer.map_or_else(String::new, |name| format!(" in `{name}`"))
+}
+
+fn of(outer: Option<&String>) -> String {
+    outer.map_or_else(String::new, |name| format!(" of `{name}`"))
+}
+
+/// The byte at a position of ron, whose columns count characters.
+fn offset(text: &str, position: Position) -> usize {
+    let line_start = match position.line {
+        1 => 0,
+        line => text
+            .match_indices('\n')
+            .nth(line - 2)
+            .map_or(text.len(), |(at, _)| at + 1),
+    };
+    let line = &text[line_start..];
+    line.char_indices()
+        .nth(position.col - 1)
+        .map_or(text.len(), |(at, _)| line_start + at)
+}
+
+/// What ron had just taken. A closing bracket stands for the whole value that it closes.
+fn taken(text: &str, root: &Node, span: Span) -> Span {
+    let word = text[span.clone()].trim();
+    if word.is_empty() {
+        return next(text, root, span.start);
+    }
+    let start = span.start + text[span.clone()].find(word).unwrap_or(0);
+    let end = start + word.len();
+    let closes = word.ends_with([')', ']', '}']);
+    match smallest(root, &|node| {
+        closes && is_bracket(node) && node.span.end == end
+    }) {
+        Some(node) => node.span.clone(),
+        None => start..end,
+    }
+}
+
+/// The value that begins at `at` or after it, else the token there.
+fn next(text: &str, root: &Node, at: usize) -> Span {
+    let rest = &text[at..];
+    let start = at + rest.len() - rest.trim_start().len();
+    match smallest(root, &|node| node.span.start == start) {
+        Some(node) => node.span.clone(),
+        None => start..start + crate::scan::token_length(&text[start..]),
+    }
+}
+
+/// The name before a bracket, or the bracket itself.
+fn head(node: &Node) -> Span {
+    node.name
+        .clone()
+        .unwrap_or_else(|| node.span.start..node.span.start + 1)
+}
+
+fn is_bracket(node: &Node) -> bool {
+    !matches!(node.body, Body::Leaf)
+}
+
+/// The innermost node that fits.
+pub(crate) fn smallest<'n>(node: &'n Node, fits: &dyn Fn(&Node) -> bool) -> Option<&'n Node> {
+    let inner = match &node.body {
+        Body::Leaf => None,
+        Body::Struct(entries) | Body::Map(entries) => entries
+            .iter()
+            .find_map(|entry| smallest(&entry.value, fits)),
+        Body::Tuple(items) | Body::List(items) => {
+            items.iter().find_map(|item| smallest(item, fits))
+        }
+    };
+    inner.or_else(|| fits(node).then_some(node))
+}

@@ -1,0 +1,354 @@
+//! A scanner that finds where the values of a RON text are, without knowing their types.
+//!
+//! It stands before ron for two reasons: overrides are spliced into the text, so the span of the
+//! value at a path must be known, and a bracket or string that is never closed is best reported
+//! where it was opened.
+
+use crate::finding::{Finding, Span};
+
+/// Deeper than any scenario needs and shallow enough for every stack; below ron's own limit.
+const DEEPEST: usize = 60;
+
+/// A value: `span` includes the name in front of a bracket, as in `Gravity(..)`.
+#[derive(Debug)]
+pub(crate) struct Node {
+    pub span: Span,
+    pub name: Option<Span>,
+    pub body: Body,
+}
+
+/// What a value is made of.
+#[derive(Debug)]
+pub(crate) enum Body {
+    /// A number, string, character or bare word.
+    Leaf,
+    /// `(key: value, ..)`, and also `()`.
+    Struct(Vec<Entry>),
+    /// `(value, ..)`
+    Tuple(Vec<Node>),
+    /// `[value, ..]`
+    List(Vec<Node>),
+    /// `{key: value, ..}`
+    Map(Vec<Entry>),
+}
+
+/// A `key: value` pair.
+#[derive(Debug)]
+pub(crate) struct Entry {
+    pub key: Span,
+    pub value: Node,
+}
+
+impl Entry {
+    pub fn span(&self) -> Span {
+        self.key.start..self.value.span.end
+    }
+}
+
+/// Scans a whole document: optional `#![enable(..)]` header, then one value.
+pub(crate) fn document(text: &str) -> Result<Node, Finding> {
+    let mut scanner = Scanner {
+        text,
+        at: 0,
+        depth: 0,
+    };
+    scanner.blank()?;
+    while scanner.rest().starts_with('#') {
+        scanner.header()?;
+        scanner.blank()?;
+    }
+    scanner.only_value()
+}
+
+/// Scans text that must be one single value.
+pub(crate) fn single_value(text: &str) -> Result<Node, Finding> {
+    Scanner {
+        text,
+        at: 0,
+        depth: 0,
+    }
+    .only_value()
+}
+
+struct Scanner<'a> {
+    text: &'a str,
+    at: usize,
+    depth: usize,
+}
+
+impl<'a> Scanner<'a> {
+    fn rest(&self) -> &'a str {
+        &self.text[self.at..]
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    fn eat(&mut self, c: char) -> bool {
+        let found = self.peek() == Some(c);
+        if found {
+            self.at += c.len_utf8();
+        }
+        found
+    }
+
+    /// Skips white space and comments; block comments nest.
+    fn blank(&mut self) -> Result<(), Finding> {
+        loop {
+            let rest = self.rest();
+            let start = self.at;
+            if rest.starts_with("//") {
+                self.at += rest.find('\n').unwrap_or(rest.len());
+            } else if rest.starts_with("/*") {
+                self.at += block_comment(rest).ok_or_else(|| {
+                    Finding::new(start..start + 2, "this comment is never closed")
+                        .hint("close it with `*/`")
+                })?;
+            } else if let Some(c) = rest.chars().next().filter(|c| c.is_whitespace()) {
+                self.at += c.len_utf8();
+            } else {
+                return Ok(());
+            }
+        }
+    }
+
+    fn header(&mut self) -> Result<(), Finding> {
+        let start = self.at;
+        while !self.eat(']') {
+            match self.peek() {
+                Some('"') => self.quoted('"', 1)?,
+                Some(c) => self.at += c.len_utf8(),
+                None => {
+                    return Err(
+                        Finding::new(start..start + 1, "this header is never closed")
+                            .hint("headers look like `#![enable(implicit_some)]`"),
+                    );
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn only_value(&mut self) -> Result<Node, Finding> {
+        let node = self.value()?;
+        self.blank()?;
+        match self.peek() {
+            None => Ok(node),
+            Some(_) => Err(Finding::new(
+                self.token(),
+                format!("nothing may follow the value, found {}", self.found()),
+            )
+            .hint("one value only; is a bracket closed too early, or a string not quoted?")),
+        }
+    }
+
+    fn value(&mut self) -> Result<Node, Finding> {
+        self.blank()?;
+        let start = self.at;
+        match self.peek() {
+            Some('"') => self.quoted('"', 1)?,
+            Some('\'') => self.quoted('\'', 1)?,
+            Some('(' | '[' | '{') => return self.group(start, None),
+            None | Some(',' | ':' | ')' | ']' | '}') => {
+                return Err(Finding::new(
+                    self.token(),
+                    format!("expected a value, found {}", self.found()),
+                ));
+            }
+            Some(_) if self.prefixed_string()? => {}
+            Some(_) => return self.word(),
+        }
+        Ok(Node {
+            span: start..self.at,
+            name: None,
+            body: Body::Leaf,
+        })
+    }
+
+    /// A number or bare word, or a name with its brackets.
+    fn word(&mut self) -> Result<Node, Finding> {
+        let start = self.at;
+        self.at = self.token().end;
+        let span = start..self.at;
+        let is_name = self.text[start..].starts_with(|c: char| c.is_alphabetic() || c == '_');
+        self.blank()?;
+        if is_name && self.peek() == Some('(') {
+            return self.group(start, Some(span));
+        }
+        self.at = span.end;
+        Ok(Node {
+            span,
+            name: None,
+            body: Body::Leaf,
+        })
+    }
+
+    /// `r"..", r#".."#, b"..", br"..", b'.'`; false if the text here is none of these.
+    fn prefixed_string(&mut self) -> Result<bool, Finding> {
+        let start = self.at;
+        let body = self.rest().trim_start_matches(['b', 'r']);
+        let prefix = self.rest().len() - body.len();
+        let marks = body.len() - body.trim_start_matches('#').len();
+        match &self.rest().as_bytes()[..prefix] {
+            b"b" if body.starts_with('"') => self.quoted('"', 2)?,
+            b"b" if body.starts_with('\'') => self.quoted('\'', 2)?,
+            b"r" | b"br" if body[marks..].starts_with('"') => {
+                let end = format!("\"{}", "#".repeat(marks));
+                let inside = &body[marks + 1..];
+                let length = inside.find(&end).ok_or_else(|| never_closed(start, '"'))?;
+                self.at += prefix + marks + 1 + length + end.len();
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// Skips a quoted text whose opening mark ends `opening` bytes from here.
+    fn quoted(&mut self, mark: char, opening: usize) -> Result<(), Finding> {
+        let start = self.at;
+        self.at += opening;
+        while let Some(c) = self.peek() {
+            self.at += c.len_utf8();
+            if c == mark {
+                return Ok(());
+            }
+            if c == '\\' {
+                self.at += self.peek().map_or(0, char::len_utf8);
+            }
+        }
+        Err(never_closed(start, mark))
+    }
+
+    fn group(&mut self, start: usize, name: Option<Span>) -> Result<Node, Finding> {
+        let opening = self.at;
+        let open = &self.text[opening..=opening];
+        let close = match open {
+            "(" => ')',
+            "[" => ']',
+            _ => '}',
+        };
+        self.at += 1;
+        self.depth += 1;
+        if self.depth > DEEPEST {
+            let message = format!("brackets are nested more than {DEEPEST} deep");
+            return Err(Finding::new(opening..self.at, message));
+        }
+        let (mut entries, mut items) = (Vec::new(), Vec::new());
+        loop {
+            self.blank()?;
+            if self.eat(close) {
+                break;
+            }
+            self.refuse_end(opening, open, close)?;
+            let item = self.value()?;
+            self.blank()?;
+            let keyed = open != "[" && self.eat(':');
+            if keyed {
+                entries.push(Entry {
+                    key: item.span,
+                    value: self.value()?,
+                });
+            } else if open == "{" {
+                let message = format!("expected `:` and a value, found {}", self.found());
+                return Err(Finding::new(self.token(), message)
+                    .hint("entries of a map are written `key: value`"));
+            } else {
+                items.push(item);
+            }
+            if !entries.is_empty() && !items.is_empty() {
+                let last = if keyed {
+                    &entries[entries.len() - 1].key
+                } else {
+                    &items[items.len() - 1].span
+                };
+                return Err(Finding::new(
+                    last.clone(),
+                    "values with a field name and values without one are mixed in one bracket",
+                )
+                .hint("write every field as `name: value`"));
+            }
+            self.blank()?;
+            if !self.eat(',') && self.peek() != Some(close) {
+                self.refuse_end(opening, open, close)?;
+                let message = format!("expected `,` or `{close}`, found {}", self.found());
+                return Err(Finding::new(self.token(), message)
+                    .hint("is a comma missing after the previous value?"));
+            }
+        }
+        self.depth -= 1;
+        let body = match open {
+            "[" => Body::List(items),
+            "{" => Body::Map(entries),
+            _ if items.is_empty() => Body::Struct(entries),
+            _ => Body::Tuple(items),
+        };
+        Ok(Node {
+            span: start..self.at,
+            name,
+            body,
+        })
+    }
+
+    fn refuse_end(&self, opening: usize, open: &str, close: char) -> Result<(), Finding> {
+        match self.peek() {
+            None => Err(Finding::new(
+                opening..opening + 1,
+                format!("this `{open}` is never closed"),
+            )
+            .hint(format!("add the missing `{close}`"))),
+            Some(c @ (')' | ']' | '}')) => Err(Finding::new(
+                self.at..self.at + 1,
+                format!("expected `{close}` to close the `{open}` before it, found `{c}`"),
+            )),
+            Some(_) => Ok(()),
+        }
+    }
+
+    /// The span of the token here, for messages.
+    fn token(&self) -> Span {
+        self.at..self.at + token_length(self.rest())
+    }
+
+    fn found(&self) -> String {
+        match &self.text[self.token()] {
+            "" => "the end of the text".to_owned(),
+            token => format!("`{token}`"),
+        }
+    }
+}
+
+fn never_closed(start: usize, mark: char) -> Finding {
+    Finding::new(start..start + 1, "this string is never closed")
+        .hint(format!("add the missing `{mark}`"))
+}
+
+fn block_comment(text: &str) -> Option<usize> {
+    let (mut depth, mut at) = (0, 0);
+    loop {
+        let rest = &text[at..];
+        if rest.starts_with("/*") {
+            depth += 1;
+            at += 2;
+        } else if rest.starts_with("*/") {
+            depth -= 1;
+            at += 2;
+        } else {
+            at += rest.chars().next()?.len_utf8();
+        }
+        if depth == 0 {
+            return Some(at);
+        }
+    }
+}
+
+/// Length of the word, or of the single mark, with which `text` begins.
+pub(crate) fn token_length(text: &str) -> usize {
+    let is_mark = |c: char| c.is_whitespace() || ",:()[]{}\"'".contains(c);
+    let word = text.find(is_mark).unwrap_or(text.len());
+    let comment = ["//", "/*"].iter().filter_map(|mark| text.find(mark)).min();
+    match word.min(comment.unwrap_or(word)) {
+        0 => text.chars().next().map_or(0, char::len_utf8),
+        length => length,
+    }
+}
