@@ -1,1 +1,33 @@
-//! (being written)
+//! Discrete Cosserat rods and rigid bodies (Gazzola et al. 2018, doi:10.1098/rsos.171628). The engine knows no
+//! particular robot: laws, loads, boundary conditions, joints, damping, actuation and callbacks enter through the
+//! traits of [`hooks`], as plugins that scenario files name.
+//!
+//! Conventions: SI units. A frame is a matrix whose rows are the directors `d1, d2, d3` in the world frame; `d3` is
+//! along the rod. Forces on nodes are in the world frame; strains, stresses, couples, torques and angular velocities
+//! are in the material frame of their element or cell. Indices count from a body's first node.
+
+pub mod bodies;
+pub mod cylinder;
+pub mod hooks;
+pub mod inputs;
+mod kernel;
+pub mod rod;
+pub mod rotation;
+pub mod site;
+pub mod steady;
+pub mod system;
+pub mod vectors;
+pub mod view;
+
+pub use bodies::End;
+pub use cylinder::Cylinder;
+pub use hooks::{
+    Actuation, BoundaryCondition, Callback, CallbackError, Damping, Forcing, Joint, RodLaw,
+    Setting, Snapshot,
+};
+pub use inputs::{Inputs, Moment, Series, Signal};
+pub use rod::{Rod, Section};
+pub use site::{JointLoad, Place, Site, Wrench};
+pub use steady::{SteadyOptions, SteadyReport, SteadySolver};
+pub use system::{BlowUp, BodyId, System};
+pub use view::{Body, LawView, LoadView, PoseView, RateView, ReadBody};

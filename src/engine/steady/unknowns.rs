@@ -1,0 +1,188 @@
+//! The unknowns of a steady state: six a station, three of position and three of rotation.
+
+use crate::bodies::Bodies;
+use crate::rotation;
+use crate::system::{Group, System};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+/// Unknowns a station: displacement over the length scale, and material rotation vector.
+pub(super) const PER_STATION: usize = 6;
+
+/// Numbers all stations of a system and scales their unknowns.
+pub(super) struct Unknowns {
+    /// First station of each group.
+    offsets: Vec<usize>,
+    /// Number of stations.
+    pub(super) stations: usize,
+    /// Length \[m\] that makes displacements and forces comparable with rotations and torques.
+    pub(super) scale: f64,
+}
+
+impl Unknowns {
+    pub(super) fn of(system: &System) -> Self {
+        let mut offsets = Vec::new();
+        let mut stations = 0;
+        let (mut length, mut elements) = (0.0, 0usize);
+        for group in &system.groups {
+            offsets.push(stations);
+            stations += group.bodies.stations();
+            for layout in group.bodies.layouts() {
+                for k in layout.element_stations() {
+                    length += group.bodies.reference_length[k];
+                    elements += 1;
+                }
+            }
+        }
+        Self {
+            offsets,
+            stations,
+            scale: length / elements.max(1) as f64,
+        }
+    }
+
+    /// Global number of a group's station.
+    pub(super) fn global(&self, group: usize, station: usize) -> usize {
+        self.offsets[group] + station
+    }
+
+    /// Group and station in it of a global station.
+    pub(super) fn locate(&self, station: usize) -> (usize, usize) {
+        let group = self.offsets.partition_point(|first| *first <= station) - 1;
+        (group, station - self.offsets[group])
+    }
+
+    /// Present loads, scaled: force times length, and torque.
+    pub(super) fn read_loads(&self, groups: &[Group], loads: &mut [f64]) {
+        for (group, first) in groups.iter().zip(&self.offsets) {
+            let Bodies { force, torque, .. } = &group.bodies;
+            for k in 0..group.bodies.stations() {
+                let at = (first + k) * PER_STATION;
+                loads[at..at + 3].copy_from_slice((force.get(k) * self.scale).as_slice());
+                loads[at + 3..at + 6].copy_from_slice(torque.get(k).as_slice());
+            }
+        }
+    }
+
+    /// How many stations away the loads on a body change when one of its stations moves, over all bodies.
+    pub(super) fn reach(&self, system: &mut System) -> usize {
+        let now = crate::inputs::Moment {
+            time: system.time,
+            inputs: &system.inputs,
+        };
+        let mut reach = 1;
+        for group in &mut system.groups {
+            let start = group.bodies.state.clone();
+            group.loads(&now);
+            let base = (group.bodies.force.clone(), group.bodies.torque.clone());
+            for sample in 0..3 {
+                // both ways, since a law may act one way only
+                for sign in [1.0, -1.0] {
+                    let by = Vector6::new(3e-3, -2e-3, 1e-3, 2e-3, 3e-3, -4e-3) * sign;
+                    let moved = |l: &crate::bodies::Layout| l.elements * sample / 2;
+                    for b in 0..group.bodies.layouts().len() {
+                        let layout = &group.bodies.layouts()[b];
+                        let station = layout.first + moved(layout);
+                        self.displace(&mut group.bodies, station, &by);
+                    }
+                    group.loads(&now);
+                    let Bodies { force, torque, .. } = &group.bodies;
+                    for layout in group.bodies.layouts() {
+                        for i in 0..layout.nodes() {
+                            let k = layout.first + i;
+                            if force.get(k) != base.0.get(k) || torque.get(k) != base.1.get(k) {
+                                reach = reach.max(i.abs_diff(moved(layout)));
+                            }
+                        }
+                    }
+                    group.bodies.state.clone_from(&start);
+                }
+            }
+        }
+        reach
+    }
+
+    /// Moves one station by its six scaled unknowns.
+    pub(super) fn displace(&self, bodies: &mut Bodies, k: usize, by: &Vector6<f64>) {
+        let shift: Vector3<f64> = by.fixed_rows::<3>(0) * self.scale;
+        bodies.state.position.add(k, shift);
+        let frame = bodies.state.director.get(k);
+        let turn = by.fixed_rows::<3>(3).into_owned();
+        bodies.state.director.set(k, rotation::turned(&frame, &turn));
+    }
+
+    /// Moves all stations.
+    pub(super) fn displace_all(&self, groups: &mut [Group], by: &[f64]) {
+        for (group, first) in groups.iter_mut().zip(&self.offsets) {
+            for k in 0..group.bodies.stations() {
+                let at = (first + k) * PER_STATION;
+                let by = Vector6::from_column_slice(&by[at..at + 6]);
+                self.displace(&mut group.bodies, k, &by);
+            }
+        }
+    }
+}
+
+/// Which combinations of a station's unknowns are free: the projection that the boundary conditions make of rates.
+pub(super) struct Freedom {
+    /// One projection a station.
+    pub(super) free: Vec<Matrix6<f64>>,
+}
+
+impl Freedom {
+    /// Asks every boundary condition by giving unit rates to all stations, one unknown at a time.
+    pub(super) fn of(system: &mut System, unknowns: &Unknowns) -> Result<Self, String> {
+        let none = probe(system, unknowns, None);
+        let mut free = vec![Matrix6::zeros(); unknowns.stations];
+        for j in 0..PER_STATION {
+            let rates = probe(system, unknowns, Some(j));
+            for ((matrix, rate), still) in free.iter_mut().zip(rates).zip(&none) {
+                matrix.set_column(j, &(rate - still));
+            }
+        }
+        let mut first = 0;
+        for layout in system.groups.iter().flat_map(|g| g.bodies.layouts()) {
+            for i in 0..layout.nodes() {
+                let p = &mut free[first + i];
+                if i >= layout.directors() {
+                    // a rod's last station has a node but no element
+                    p.fixed_view_mut::<3, 6>(3, 0).fill(0.0);
+                }
+                if !((*p * *p - *p).amax() < 1e-9) {
+                    return Err(format!(
+                        "the boundary conditions on `{}` at node {i} aren't a projection of the rates, so a steady \
+                         state can't be sought; what is not held must be left as it is",
+                        layout.name
+                    ));
+                }
+            }
+            first += layout.nodes();
+        }
+        Ok(Self { free })
+    }
+}
+
+/// Rates of every station after the boundary conditions had unit rates (or none) before them.
+fn probe(system: &mut System, unknowns: &Unknowns, unit: Option<usize>) -> Vec<Vector6<f64>> {
+    let now = crate::inputs::Moment {
+        time: system.time,
+        inputs: &system.inputs,
+    };
+    let mut rates = Vec::with_capacity(unknowns.stations);
+    for group in &mut system.groups {
+        let given = unit.map_or(Vector6::zeros(), |j| Vector6::ith(j, 1.0));
+        for k in 0..group.bodies.stations() {
+            let state = &mut group.bodies.state;
+            state.velocity.set(k, given.fixed_rows::<3>(0).into());
+            state.omega.set(k, given.fixed_rows::<3>(3).into());
+        }
+        group.set_rates(&now);
+        for k in 0..group.bodies.stations() {
+            let state = &group.bodies.state;
+            let (v, w) = (state.velocity.get(k), state.omega.get(k));
+            rates.push(Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
+        }
+        group.bodies.state.velocity.clear_to_zero();
+        group.bodies.state.omega.clear_to_zero();
+    }
+    rates
+}

@@ -1,0 +1,305 @@
+//! The one view that plugins have of a body, whatever the storage.
+//!
+//! [`Body`] reads. [`LawView`], [`LoadView`], [`PoseView`] and [`RateView`] read as well, and write what their hook is
+//! for. Indices count from the body's own first node, element or cell. A rigid body has one node (its centre of mass)
+//! and one frame, so that a loop over nodes or frames serves rods and rigid bodies alike.
+
+use crate::bodies::{Bodies, Cap, End, Layout};
+use nalgebra::{Matrix3, Vector3};
+
+/// Read access to a body's arrays.
+pub trait ReadBody {
+    /// The arrays that the body lies in.
+    #[doc(hidden)]
+    fn bodies(&self) -> &Bodies;
+    /// Index of the body in the arrays.
+    #[doc(hidden)]
+    fn index(&self) -> usize;
+
+    #[doc(hidden)]
+    fn layout(&self) -> &Layout {
+        &self.bodies().layouts[self.index()]
+    }
+    #[doc(hidden)]
+    #[inline]
+    fn at(&self, i: usize) -> usize {
+        self.layout().first + i
+    }
+
+    /// Name in the scenario.
+    fn name(&self) -> &str {
+        &self.layout().name
+    }
+    /// Whether the body is a rod (else it is rigid).
+    fn is_rod(&self) -> bool {
+        self.layout().is_rod()
+    }
+    /// Number of elements, 0 for a rigid body.
+    fn elements(&self) -> usize {
+        self.layout().elements
+    }
+    /// Number of nodes: elements + 1.
+    fn nodes(&self) -> usize {
+        self.layout().nodes()
+    }
+    /// Number of frames: one an element, or the one of a rigid body.
+    fn directors(&self) -> usize {
+        self.layout().directors()
+    }
+    /// Indices of the Voronoi cells that exist: `1..elements`, and 0 or `elements` where a wall holds the end.
+    /// Cell `v` lies between elements `v - 1` and `v`.
+    fn cells(&self) -> std::ops::Range<usize> {
+        let (cells, first) = (self.layout().cells(), self.layout().first);
+        cells.start - first..cells.end - first
+    }
+    /// The rigid end at `end`.
+    fn cap(&self, end: End) -> Cap {
+        self.layout().caps[end as usize]
+    }
+
+    /// Position of node `i`, world frame \[m\].
+    fn position(&self, i: usize) -> Vector3<f64> {
+        self.bodies().state.position.get(self.at(i))
+    }
+    /// Velocity of node `i`, world frame \[m/s\].
+    fn velocity(&self, i: usize) -> Vector3<f64> {
+        self.bodies().state.velocity.get(self.at(i))
+    }
+    /// Frame of element `e`: rows are `d1, d2, d3` in the world frame.
+    fn director(&self, e: usize) -> Matrix3<f64> {
+        self.bodies().state.director.get(self.at(e))
+    }
+    /// Angular velocity of element `e`, material frame \[rad/s\].
+    fn omega(&self, e: usize) -> Vector3<f64> {
+        self.bodies().state.omega.get(self.at(e))
+    }
+    /// Mass of node `i`, rigid ends included \[kg\].
+    fn mass(&self, i: usize) -> f64 {
+        self.bodies().mass[self.at(i)]
+    }
+    /// Moments of inertia of element `e` about its directors, rigid ends included \[kg m2\].
+    fn inertia(&self, e: usize) -> Vector3<f64> {
+        self.bodies().inertia.get(self.at(e))
+    }
+    /// Present length of element `e` \[m\].
+    fn length(&self, e: usize) -> f64 {
+        self.bodies().length[self.at(e)]
+    }
+    /// Length of element `e` as built \[m\].
+    fn reference_length(&self, e: usize) -> f64 {
+        self.bodies().reference_length[self.at(e)]
+    }
+    /// Rest length of element `e`: as built unless a rod law sets it \[m\].
+    fn rest_length(&self, e: usize) -> f64 {
+        self.bodies().rest_length[self.at(e)]
+    }
+    /// Dilatation of element `e`: present over rest length \[-\].
+    fn dilatation(&self, e: usize) -> f64 {
+        self.bodies().dilatation[self.at(e)]
+    }
+    /// Unit tangent of element `e`, world frame.
+    fn tangent(&self, e: usize) -> Vector3<f64> {
+        self.bodies().tangent.get(self.at(e))
+    }
+    /// Shear and stretch strains of element `e`, material frame \[-\].
+    fn sigma(&self, e: usize) -> Vector3<f64> {
+        self.bodies().sigma.get(self.at(e))
+    }
+    /// Internal force of element `e` (before division by the dilatation), material frame \[N\].
+    fn stress(&self, e: usize) -> Vector3<f64> {
+        self.bodies().stress.get(self.at(e))
+    }
+    /// Curvatures and twist of cell `v`, material frame \[rad/m\].
+    fn kappa(&self, v: usize) -> Vector3<f64> {
+        self.bodies().kappa.get(self.at(v))
+    }
+    /// Rotation vector across cell `v`, material frame \[rad\].
+    fn rotation(&self, v: usize) -> Vector3<f64> {
+        self.bodies().rotation.get(self.at(v))
+    }
+    /// Internal couple of cell `v`, material frame \[N m\].
+    fn couple(&self, v: usize) -> Vector3<f64> {
+        self.bodies().couple.get(self.at(v))
+    }
+    /// Rest length of cell `v` \[m\].
+    fn rest_voronoi(&self, v: usize) -> f64 {
+        self.bodies().rest_voronoi[self.at(v)]
+    }
+    /// Length that the twist of cell `v` is referred to \[m\]: as built unless a rod law sets it.
+    fn twist_length(&self, v: usize) -> f64 {
+        self.bodies().twist_length[self.at(v)]
+    }
+    /// Twist of cell `v` \[rad/m\], from the present frames; right also inside [`RodLaw::rest`](crate::RodLaw::rest).
+    fn twist(&self, v: usize) -> f64 {
+        self.rotation(v).z / self.twist_length(v)
+    }
+    /// Rigidities of element `e` as built: shear, shear, axial \[N\].
+    fn built_shear_stretch(&self, e: usize) -> Vector3<f64> {
+        self.bodies().built_shear_stretch.get(self.at(e))
+    }
+    /// Rigidities of cell `v` as built: bending, bending, twist \[N m2\].
+    fn built_bend_twist(&self, v: usize) -> Vector3<f64> {
+        self.bodies().built_bend_twist.get(self.at(v))
+    }
+    /// Total force on node `i` in the last evaluation, world frame \[N\].
+    fn force(&self, i: usize) -> Vector3<f64> {
+        self.bodies().force.get(self.at(i))
+    }
+    /// Total torque on element `e` in the last evaluation, material frame \[N m\].
+    fn torque(&self, e: usize) -> Vector3<f64> {
+        self.bodies().torque.get(self.at(e))
+    }
+}
+
+/// Read-only view of a body.
+#[derive(Clone, Copy)]
+pub struct Body<'a> {
+    bodies: &'a Bodies,
+    index: usize,
+}
+
+impl<'a> Body<'a> {
+    /// View of body `index` of `bodies`.
+    pub fn new(bodies: &'a Bodies, index: usize) -> Self {
+        Self { bodies, index }
+    }
+}
+
+impl ReadBody for Body<'_> {
+    fn bodies(&self) -> &Bodies {
+        self.bodies
+    }
+    fn index(&self) -> usize {
+        self.index
+    }
+}
+
+macro_rules! writing_view {
+    ($(#[$doc:meta])* $name:ident) => {
+        $(#[$doc])*
+        pub struct $name<'a> {
+            bodies: &'a mut Bodies,
+            index: usize,
+        }
+
+        impl<'a> $name<'a> {
+            pub(crate) fn new(bodies: &'a mut Bodies, index: usize) -> Self {
+                Self { bodies, index }
+            }
+        }
+
+        impl ReadBody for $name<'_> {
+            fn bodies(&self) -> &Bodies {
+                self.bodies
+            }
+            fn index(&self) -> usize {
+                self.index
+            }
+        }
+    };
+}
+
+writing_view! {
+    /// What a rod law sees and sets.
+    LawView
+}
+writing_view! {
+    /// What a forcing sees and adds to.
+    LoadView
+}
+writing_view! {
+    /// What a boundary condition sees and sets of positions and frames.
+    PoseView
+}
+writing_view! {
+    /// What a boundary condition or damping sees and sets of velocities.
+    RateView
+}
+
+impl LawView<'_> {
+    /// Sets the rest length of element `e` \[m\].
+    pub fn set_rest_length(&mut self, e: usize, length: f64) {
+        let k = self.at(e);
+        self.bodies.rest_length[k] = length;
+    }
+    /// Sets the length that the twist of cell `v` is referred to \[m\].
+    pub fn set_twist_length(&mut self, v: usize, length: f64) {
+        let k = self.at(v);
+        self.bodies.twist_length[k] = length;
+    }
+    /// Sets the rigidities of element `e`: shear, shear, axial \[N\].
+    pub fn set_shear_stretch(&mut self, e: usize, rigidity: Vector3<f64>) {
+        let k = self.at(e);
+        self.bodies.shear_stretch.set(k, rigidity);
+    }
+    /// Sets the rigidities of cell `v`: bending, bending, twist \[N m2\].
+    pub fn set_bend_twist(&mut self, v: usize, rigidity: Vector3<f64>) {
+        let k = self.at(v);
+        self.bodies.bend_twist.set(k, rigidity);
+    }
+    /// Sets the intrinsic shear and stretch strains of element `e` \[-\].
+    pub fn set_rest_sigma(&mut self, e: usize, sigma: Vector3<f64>) {
+        let k = self.at(e);
+        self.bodies.rest_sigma.set(k, sigma);
+    }
+    /// Sets the intrinsic curvatures and twist of cell `v` \[rad/m\].
+    pub fn set_rest_kappa(&mut self, v: usize, kappa: Vector3<f64>) {
+        let k = self.at(v);
+        self.bodies.rest_kappa.set(k, kappa);
+    }
+    /// Adds to the internal force of element `e`, material frame \[N\].
+    pub fn add_stress(&mut self, e: usize, stress: Vector3<f64>) {
+        let k = self.at(e);
+        self.bodies.stress.add(k, stress);
+    }
+    /// Adds to the internal couple of cell `v`, material frame \[N m\].
+    pub fn add_couple(&mut self, v: usize, couple: Vector3<f64>) {
+        let k = self.at(v);
+        self.bodies.couple.add(k, couple);
+    }
+}
+
+impl LoadView<'_> {
+    /// Adds a force on node `i`, world frame \[N\].
+    pub fn add_force(&mut self, i: usize, force: Vector3<f64>) {
+        let k = self.at(i);
+        self.bodies.force.add(k, force);
+    }
+    /// Adds a torque on element `e`, material frame \[N m\].
+    pub fn add_torque(&mut self, e: usize, torque: Vector3<f64>) {
+        let k = self.at(e);
+        self.bodies.torque.add(k, torque);
+    }
+}
+
+impl PoseView<'_> {
+    /// Sets the position of node `i`, world frame \[m\].
+    pub fn set_position(&mut self, i: usize, position: Vector3<f64>) {
+        let k = self.at(i);
+        self.bodies.state.position.set(k, position);
+    }
+    /// Sets the frame of element `e` (rows are directors in the world frame).
+    pub fn set_director(&mut self, e: usize, director: Matrix3<f64>) {
+        let k = self.at(e);
+        self.bodies.state.director.set(k, director);
+    }
+    /// Holds `end` of a rod by a wall of frame `director`: the end element turns against it over half an element's
+    /// length, which makes a clamp second order. Once set, the wall stays.
+    pub fn set_wall(&mut self, end: End, director: Matrix3<f64>) {
+        self.bodies.layouts[self.index].walled[end as usize] = true;
+        self.bodies.walls[self.index][end as usize] = director;
+    }
+}
+
+impl RateView<'_> {
+    /// Sets the velocity of node `i`, world frame \[m/s\].
+    pub fn set_velocity(&mut self, i: usize, velocity: Vector3<f64>) {
+        let k = self.at(i);
+        self.bodies.state.velocity.set(k, velocity);
+    }
+    /// Sets the angular velocity of element `e`, material frame \[rad/s\].
+    pub fn set_omega(&mut self, e: usize, omega: Vector3<f64>) {
+        let k = self.at(e);
+        self.bodies.state.omega.set(k, omega);
+    }
+}
