@@ -34,8 +34,7 @@ pub(crate) fn diagnose(text: &str, root: &Node, error: &SpannedError) -> Finding
         Error::MissingStructField { field, outer } => {
             let bracket = smallest(root, &|node| is_bracket(node) && node.span.contains(&end));
             let message = format!("missing field `{field}`{}", inside(outer.as_ref()));
-            Finding::new(bracket.map_or(next, |node| head(node)), message)
-                .hint(format!("add `{field}: ..`"))
+            Finding::new(bracket.map_or(next, head), message).hint(format!("add `{field}: ..`"))
         }
         Error::DuplicateStructField { field, .. } => {
             Finding::new(taken, format!("field `{field}` is given twice"))
@@ -52,13 +51,36 @@ pub(crate) fn diagnose(text: &str, root: &Node, error: &SpannedError) -> Finding
         Error::ExpectedDifferentLength { expected, found } => {
             let bracket = smallest(root, &|node| is_bracket(node) && node.span.contains(&end));
             let span = bracket.map_or(next, |node| node.span.clone());
-            Finding::new(span, format!("expected {expected}, found {found} of them"))
+            Finding::new(
+                span,
+                format!("expected {}, found {found}", length(expected)),
+            )
         }
         Error::Message(message) => match Finding::unpack(message) {
-            Some(packed) => packed.shifted(taken.start),
+            Some(packed) => {
+                packed.shifted(ended(root, end).map_or(taken.start, |node| node.span.start))
+            }
             None => with_remedy(taken, message),
         },
+        code @ Error::ExpectedNamedStructLike(name) => {
+            // The name has been taken by then, if there is one.
+            let named = ended(root, end).filter(|node| text[node.span.clone()] == **name);
+            expected(text, named.map_or(next, |node| node.span.clone()), code)
+        }
         code => expected(text, next, code),
+    }
+}
+
+/// "3 values" for serde's "an array of length 3" and "a tuple of size 3".
+fn length(expected: &str) -> String {
+    match expected
+        .rsplit(' ')
+        .next()
+        .and_then(|word| word.parse::<usize>().ok())
+    {
+        Some(1) => "1 value".to_owned(),
+        Some(count) => format!("{count} values"),
+        None => expected.to_owned(),
     }
 }
 
@@ -78,7 +100,9 @@ fn expected(text: &str, span: Span, code: &Error) -> Finding {
         found => format!("`{found}`"),
     };
     let name;
+    let doubled = found.starts_with("`(") && text[..span.start].trim_end().ends_with('(');
     let (what, hint) = match code {
+        Error::ExpectedFloat if doubled => ("a number", "one pair of brackets is enough here"),
         Error::ExpectedFloat => ("a number", "for example 0.5, -2 or 1e-9"),
         Error::ExpectedInteger => ("a whole number", "for example 25"),
         Error::ExpectedBoolean => ("`true` or `false`", "write it without quotes"),
@@ -134,17 +158,17 @@ fn offset(text: &str, position: Position) -> usize {
 fn taken(text: &str, root: &Node, span: Span) -> Span {
     let word = text[span.clone()].trim();
     if word.is_empty() {
-        return next(text, root, span.start);
+        return ended(root, span.end).map_or(span, |node| node.span.clone());
     }
     let start = span.start + text[span.clone()].find(word).unwrap_or(0);
     let end = start + word.len();
     let closes = word.ends_with([')', ']', '}']);
-    match smallest(root, &|node| {
-        closes && is_bracket(node) && node.span.end == end
-    }) {
-        Some(node) => node.span.clone(),
-        None => start..end,
-    }
+    let whole = |node: &Node| match node.body {
+        // ron may take a sign or a quotation mark before the rest.
+        Body::Leaf => node.span.contains(&start),
+        _ => closes && node.span.end == end,
+    };
+    smallest(root, &whole).map_or(start..end, |node| node.span.clone())
 }
 
 /// The value that begins at `at` or after it, else the token there.
@@ -168,16 +192,16 @@ fn is_bracket(node: &Node) -> bool {
     !matches!(node.body, Body::Leaf)
 }
 
-/// The innermost node that fits.
-pub(crate) fn smallest<'n>(node: &'n Node, fits: &dyn Fn(&Node) -> bool) -> Option<&'n Node> {
-    let inner = match &node.body {
-        Body::Leaf => None,
-        Body::Struct(entries) | Body::Map(entries) => entries
-            .iter()
-            .find_map(|entry| smallest(&entry.value, fits)),
-        Body::Tuple(items) | Body::List(items) => {
-            items.iter().find_map(|item| smallest(item, fits))
-        }
-    };
-    inner.or_else(|| fits(node).then_some(node))
+/// The innermost node that fits, of those that lie inside one another.
+pub(crate) fn smallest<'n>(root: &'n Node, fits: &dyn Fn(&Node) -> bool) -> Option<&'n Node> {
+    root.and_below().into_iter().rfind(|node| fits(node))
+}
+
+/// The value that ends at `at` or last before it.
+fn ended(root: &Node, at: usize) -> Option<&Node> {
+    let before = root
+        .and_below()
+        .into_iter()
+        .filter(|node| node.span.end <= at);
+    before.max_by_key(|node| node.span.end)
 }

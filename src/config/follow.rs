@@ -139,8 +139,8 @@ impl Follower<'_> {
     fn nature(&self, node: &Node) -> &'static str {
         match node.body {
             Body::Leaf => "is a single value without parts",
-            Body::Struct(_) => "has named fields, not numbered elements",
-            Body::Tuple(_) | Body::List(_) => "has numbered elements, not named fields",
+            Body::Struct(_) => "has named fields: they are chosen by `.name`",
+            Body::Tuple(_) | Body::List(_) => "has numbered elements: they are chosen by `[0]`",
             Body::Map(_) => "is a map: its values are chosen by `[\"key\"]`",
         }
     }

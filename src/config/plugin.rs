@@ -48,9 +48,8 @@ inventory::collect!(Plugin);
 /// Registers a plugin: a type that derives `serde::Deserialize` (with `deny_unknown_fields`) and
 /// `schemars::JsonSchema` and implements the trait of a hook.
 ///
-/// ```ignore
-/// register!(dyn Forcing: Gravity, example = "Gravity(g: (0, 0, -9.81))", source = "Gazzola et al. 2018, eq. 2.10");
-/// ```
+/// The crate that uses it needs `serde` and `schemars` for the derives, nothing else; see the crate's
+/// front page for an example.
 #[macro_export]
 macro_rules! register {
     (dyn $hook:path: $plugin:ident, example = $example:expr, source = $source:expr $(,)?) => {

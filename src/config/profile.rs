@@ -47,7 +47,12 @@ impl Profile {
 
 impl<'de> Deserialize<'de> for Profile {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(ProfileVisitor)
+        match deserializer.deserialize_any(ProfileVisitor)? {
+            Self::Listed(numbers) if numbers.is_empty() => Err(D::Error::custom(
+                "the list is empty; give a number, or one for each place",
+            )),
+            profile => Ok(profile),
+        }
     }
 }
 
@@ -78,11 +83,6 @@ impl<'de> Visitor<'de> for ProfileVisitor {
         let mut numbers = Vec::new();
         while let Some(number) = list.next_element()? {
             numbers.push(number);
-        }
-        if numbers.is_empty() {
-            return Err(A::Error::custom(
-                "the list is empty; give a number, or one for each place",
-            ));
         }
         Ok(Profile::Listed(numbers))
     }

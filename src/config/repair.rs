@@ -1,7 +1,7 @@
 //! Finding every problem of a text although ron stops at the first: the offending part is made
 //! harmless, keeping all positions, and the text is read again.
 
-use ron::error::{Error, SpannedError};
+use ron::error::SpannedError;
 
 use crate::diagnose::{diagnose, smallest};
 use crate::finding::{Finding, Span};
@@ -18,18 +18,23 @@ pub(crate) fn findings(
 ) -> Vec<Finding> {
     let mut text = text.to_owned();
     let mut findings: Vec<Finding> = Vec::new();
-    let mut blanked = false;
+    let mut misspelt = false;
     while findings.len() < MOST {
         let Ok(root) = scan::document(&text) else {
             break;
         };
         let finding = diagnose(&text, &root, &error);
-        // A repair that did not help, or a field that is missing because its misspelling was cut.
-        let repeated = findings.iter().any(|earlier| earlier.span == finding.span);
-        if repeated || (blanked && matches!(error.code, Error::MissingStructField { .. })) {
+        let repeated = findings
+            .iter()
+            .any(|earlier| earlier.span.start == finding.span.start);
+        // A field is missing because its misspelling was cut out.
+        if repeated || (misspelt && finding.message.starts_with("missing field")) {
             break;
         }
-        blanked |= matches!(error.code, Error::NoSuchStructField { .. });
+        misspelt |= finding
+            .hint
+            .as_deref()
+            .is_some_and(|hint| hint.starts_with("did you mean"));
         let repaired = repaired(&text, &root, &finding.span);
         findings.push(finding);
         let Some(next) = repaired else { break };
@@ -64,25 +69,19 @@ fn repaired(text: &str, root: &Node, span: &Span) -> Option<String> {
 
 /// `text` with `span` replaced by `with` and spaces, every line end kept.
 fn padded(text: &str, span: Span, with: &str) -> String {
-    let blanks = text[span.start + with.len()..span.end].bytes();
+    let blanks = &text.as_bytes()[span.start + with.len()..span.end];
     let blanks: String = blanks
-        .map(|byte| if byte == b'\n' { '\n' } else { ' ' })
+        .iter()
+        .map(|byte| if *byte == b'\n' { '\n' } else { ' ' })
         .collect();
     format!("{}{with}{blanks}{}", &text[..span.start], &text[span.end..])
 }
 
-fn entry_named_at<'n>(node: &'n Node, key: &Span) -> Option<&'n Entry> {
-    match &node.body {
-        Body::Leaf => None,
-        Body::Struct(entries) | Body::Map(entries) => entries.iter().find_map(|entry| {
-            if entry.key == *key {
-                Some(entry)
-            } else {
-                entry_named_at(&entry.value, key)
-            }
-        }),
-        Body::Tuple(items) | Body::List(items) => {
-            items.iter().find_map(|item| entry_named_at(item, key))
-        }
-    }
+fn entry_named_at<'n>(root: &'n Node, key: &Span) -> Option<&'n Entry> {
+    root.and_below()
+        .into_iter()
+        .find_map(|node| match &node.body {
+            Body::Struct(entries) => entries.iter().find(|entry| entry.key == *key),
+            _ => None,
+        })
 }

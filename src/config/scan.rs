@@ -32,6 +32,22 @@ pub(crate) enum Body {
     Map(Vec<Entry>),
 }
 
+impl Node {
+    /// The node and all that it holds, the outer before the inner.
+    pub fn and_below(&self) -> Vec<&Node> {
+        let inner: Vec<_> = match &self.body {
+            Body::Leaf => Vec::new(),
+            Body::Struct(entries) | Body::Map(entries) => {
+                entries.iter().map(|entry| &entry.value).collect()
+            }
+            Body::Tuple(items) | Body::List(items) => items.iter().collect(),
+        };
+        std::iter::once(self)
+            .chain(inner.into_iter().flat_map(Node::and_below))
+            .collect()
+    }
+}
+
 /// A `key: value` pair.
 #[derive(Debug)]
 pub(crate) struct Entry {

@@ -9,7 +9,7 @@ pub(crate) fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str>
         .copied()
         .min_by_key(|known| distance(known))?;
     let is_part = name.len() > 2 && best.to_lowercase().contains(&lower);
-    (distance(best) <= 1 + name.len() / 4 || is_part).then_some(best)
+    (distance(best) <= name.len().div_ceil(3).min(name.len() / 2) || is_part).then_some(best)
 }
 
 /// "did you mean `a`? " (if there is a near one) and "`kind` are `a`, `b`".

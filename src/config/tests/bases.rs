@@ -54,11 +54,31 @@ fn a_derived_file_changes_its_base_and_the_base_of_that() {
         ("sub/common.ron", COMMON),
         (
             "middle.ron",
-            "(base: \"sub/common.ron\", title: \"middle\")",
+            "(base: \"sub/common.ron\", title: \"middle\", set: { \"rods[0].length\": 3 })",
         ),
         (
             "top.ron",
-            "(base: \"middle.ron\", set: { \"rods[0].length\": 2, r#\"rods[0]['name']\"#: 1, \"rods[0].name\": \"b\" })",
+            "(base: \"middle.ron\", set: { \"rods[0].length\": 2, \"rods[*].name\": \"b\" })",
+        ),
+    ]);
+    let source = Source::load(&folder.file("top.ron"), &[]).unwrap();
+    let scenario: Scenario = source.parse().unwrap();
+    assert_eq!(
+        (scenario.title.as_str(), *scenario.rods[0].length),
+        ("middle", 2.0)
+    );
+    assert_eq!(scenario.rods[0].name, "b");
+    let source = Source::load(&folder.file("top.ron"), &["title=\"set\"".to_owned()]).unwrap();
+    assert_eq!(source.parse::<Scenario>().unwrap().title, "set");
+}
+
+#[test]
+fn the_keys_of_set_are_plain_strings() {
+    let folder = Folder::new(&[
+        ("common.ron", COMMON),
+        (
+            "top.ron",
+            "(base: \"common.ron\", set: { r#\"title\"#: \"x\" })",
         ),
     ]);
     let error = folder.error("top.ron", &[]);
@@ -66,16 +86,6 @@ fn a_derived_file_changes_its_base_and_the_base_of_that() {
         error.contains("expected a path in double quotes"),
         "{error}"
     );
-    fs::write(
-        folder.file("top.ron"),
-        "(base: \"middle.ron\", set: { \"rods[0].length\": 2, \"rods[*].name\": \"b\" })",
-    )
-    .unwrap();
-    let source = Source::load(&folder.file("top.ron"), &["title=\"set\"".to_owned()]).unwrap();
-    let scenario: Scenario = source.parse().unwrap();
-    assert_eq!(scenario.title, "set");
-    assert_eq!(*scenario.rods[0].length, 2.0);
-    assert_eq!(scenario.rods[0].name, "b");
 }
 
 #[test]
