@@ -45,7 +45,7 @@ impl fmt::Display for Body {
 /// Poses of one body in the world frame, one a row.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Track {
-    /// Centroid of the body's markers [m], one a row.
+    /// Centroid of the body's markers (m), one a row.
     pub position: Vec<Vector3<f64>>,
     /// Orientation of the body's marker frame, one a row, sign-continuous.
     pub rotation: Vec<UnitQuaternion<f64>>,

@@ -120,9 +120,9 @@ pub enum Error {
         path: PathBuf,
         /// Line concerned.
         line: u64,
-        /// Time of the line before [s].
+        /// Time of the line before (s).
         previous: f64,
-        /// Time of this line [s].
+        /// Time of this line (s).
         found: f64,
     },
     /// A motion-capture row belongs to no known body.

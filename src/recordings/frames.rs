@@ -35,11 +35,11 @@ fn exchange(pose: &Pose, axes: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Pose {
 /// world's, renamed. The origin is fixed for the run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BasePoses {
-    /// Centroid of the platform's markers [m] and orientation of the platform.
+    /// Centroid of the platform's markers (m) and orientation of the platform.
     pub platform: Vec<Pose>,
-    /// Centroid of the ring's markers [m] and orientation of the ring.
+    /// Centroid of the ring's markers (m) and orientation of the ring.
     pub ring: Vec<Pose>,
-    /// Origin of the base frame [m], in the world's axes renamed as by [`to_base`].
+    /// Origin of the base frame (m), in the world's axes renamed as by [`to_base`].
     pub origin: Vector3<f64>,
     /// Median orientation of the base, near identity; not removed from the poses.
     pub base_rotation: UnitQuaternion<f64>,

@@ -16,6 +16,19 @@
 //! the robot from base to platform. The *base frame* has its origin on the axis of the robot in
 //! the base plane and z along the robot: `p_B = (x_W, -z_W, y_W)`. Rows count from zero; row `i`
 //! of a recording is line `i + 1` of its files.
+//!
+//! # Example
+//! ```no_run
+//! use auxetica_recordings::{Audit, Recording, RobotGeometry, SettleRule};
+//!
+//! let recording = Recording::read("recordings/20221011_174514")?;
+//! println!("{}", Audit::new(&recording)?);
+//! let samples = SettleRule::default().samples(&recording, &RobotGeometry::default())?;
+//! for (angles, platform) in samples.angles.iter().zip(&samples.platform) {
+//!     println!("{angles:.3?} rad lift the platform to {:.4} m", platform.translation.z);
+//! }
+//! # Ok::<(), auxetica_recordings::Error>(())
+//! ```
 
 mod audit;
 mod authors;

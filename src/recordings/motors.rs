@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use crate::Recording;
 
-/// One tick of a motor's encoder [rad]; a turn has 4096.
+/// One tick of a motor's encoder (rad); a turn has 4096.
 pub const RADIANS_PER_TICK: f64 = PI / 2048.0;
 
 /// Angles of the motors over time; motor `i` drives rod `i`.
@@ -15,11 +15,11 @@ pub const RADIANS_PER_TICK: f64 = PI / 2048.0;
 pub struct MotorAngles {
     /// Row of the recording that the series begin with: its first with real motor readings.
     pub first_row: usize,
-    /// Time [s].
+    /// Time (s).
     pub time: Vec<f64>,
-    /// Angles that the motors had [rad], zero in the first row. Drive simulations with these.
+    /// Angles that the motors had (rad), zero in the first row. Drive simulations with these.
     pub present: Vec<[f64; 4]>,
-    /// Angles that the motors were told to take [rad], from the same zero. Under load the motors
+    /// Angles that the motors were told to take (rad), from the same zero. Under load the motors
     /// stay up to 0.06 rad behind.
     pub goal: Vec<[f64; 4]>,
 }
@@ -44,7 +44,7 @@ impl MotorAngles {
     }
 }
 
-/// Angles [rad] of motors at `ticks`, counted from `zero`.
+/// Angles (rad) of motors at `ticks`, counted from `zero`.
 pub(crate) fn angles_from(ticks: &[f64; 4], zero: &[f64; 4]) -> [f64; 4] {
     std::array::from_fn(|i| (ticks[i] - zero[i]) * RADIANS_PER_TICK)
 }

@@ -11,7 +11,7 @@ use crate::frames::shifted;
 use crate::motors::angles_from;
 use crate::{Error, Pose, Recording, Reference, RobotGeometry, SteadySamples};
 
-/// How far a motor angle may be from the one a table was made with [rad].
+/// How far a motor angle may be from the one a table was made with (rad).
 const ANGLE_TOLERANCE: f64 = 1e-3;
 /// Longest table that is read.
 const MAX_SAMPLES: u64 = 1_000_000;
@@ -26,7 +26,7 @@ pub struct PublishedTable {
     /// Homogeneous matrices of the rod's base, the ring and the rod's tip, as stored in single
     /// precision: rotations are so only to about 3e-7. [`SteadySamples::rod_poses`] has the like.
     pub transforms: Vec<[Matrix4<f64>; 3]>,
-    /// Arc lengths of the three points [m].
+    /// Arc lengths of the three points (m).
     pub arc_lengths: [f64; 3],
 }
 

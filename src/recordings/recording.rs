@@ -8,7 +8,7 @@ use crate::mocap;
 use crate::table::Table;
 use crate::{Body, Error, Track};
 
-/// How far a motor may have moved between the first two rows [ticks]; see [`Recording::first_row`].
+/// How far a motor may have moved between the first two rows (ticks); see [`Recording::first_row`].
 const MAX_FIRST_STEP: f64 = 256.0;
 
 /// A recording of the four-rod robot: motor readings and, mostly, motion capture.
@@ -18,11 +18,11 @@ const MAX_FIRST_STEP: f64 = 256.0;
 pub struct Recording {
     /// Name of the recording: that of its folder.
     pub name: String,
-    /// Time of every row [s].
+    /// Time of every row (s).
     pub time: Vec<f64>,
-    /// Goal of every motor [ticks, 4096 a turn].
+    /// Goal of every motor (ticks, 4096 a turn).
     pub goal: Vec<[f64; 4]>,
-    /// Position of every motor [ticks, 4096 a turn].
+    /// Position of every motor (ticks, 4096 a turn).
     pub present: Vec<[f64; 4]>,
     /// Velocity of every motor, in the motors' unit of about 0.229 turns a minute.
     pub velocities: Vec<[f64; 4]>,
@@ -87,6 +87,44 @@ impl Recording {
             },
             time,
         })
+    }
+
+    /// Checks a recording made in memory: at least one row, series of equal length, finite
+    /// numbers, increasing time. One that was read has passed already; everything that takes a
+    /// recording relies on it, and may panic on one that does not pass.
+    ///
+    /// # Errors
+    /// When it is not so.
+    pub fn check(&self) -> Result<(), Error> {
+        let fault = |reason: &str| {
+            Err(Error::Inconsistent {
+                recording: self.name.clone(),
+                reason: reason.into(),
+            })
+        };
+        let series = [&self.goal, &self.present, &self.velocities, &self.loads];
+        let tracks: Vec<_> = (self.mocap.iter())
+            .flat_map(|mocap| Body::ALL.map(|body| mocap.track(body)))
+            .collect();
+        let mut lengths = (series.iter().map(|series| series.len()))
+            .chain((tracks.iter()).flat_map(|track| [track.position.len(), track.rotation.len()]));
+        if self.time.is_empty() {
+            return fault("it has no row");
+        }
+        if lengths.any(|length| length != self.len()) {
+            return fault("its series are not of equal length");
+        }
+        let mut numbers = (self.time.iter())
+            .chain(series.into_iter().flatten().flatten())
+            .chain((tracks.iter()).flat_map(|track| track.position.iter().flatten()))
+            .chain((tracks.iter()).flat_map(|track| track.rotation.iter().flat_map(|q| &q.coords)));
+        if !numbers.all(|number| number.is_finite()) {
+            return fault("it holds a number that is not finite");
+        }
+        if !self.time.is_sorted_by(|a, b| a < b) {
+            return fault("its time does not increase from row to row");
+        }
+        Ok(())
     }
 
     /// Number of rows, the first one included even if its motor readings are not real.

@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::median::median_pose;
 use crate::{BasePoses, Error, Pose, Recording};
 
-/// How far a motor at rest may stray [ticks], and the fastest it may seem to turn.
+/// How far a motor at rest may stray (ticks), and the fastest it may seem to turn.
 const REST_TICKS: f64 = 2.0;
 const REST_VELOCITY: f64 = 1.0;
 
@@ -18,9 +18,9 @@ const REST_VELOCITY: f64 = 1.0;
 /// position at rest tells where the marker point sits (see [`MarkerFrame`]).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Reference {
-    /// Centroid of the platform's markers [m] and its orientation, in the base frame.
+    /// Centroid of the platform's markers (m) and its orientation, in the base frame.
     pub platform: Pose,
-    /// Centroid of the ring's markers [m] and its orientation, in the base frame.
+    /// Centroid of the ring's markers (m) and its orientation, in the base frame.
     pub ring: Pose,
     /// Rows of the recording that this is the median of.
     pub rows: Range<usize>,
@@ -72,7 +72,7 @@ pub enum OffsetZ {
     /// From the sample at rest: recorded and simulated heights agree there, and displacements
     /// from rest are compared.
     Reference,
-    /// Given [m], from the body's point along the base frame's z: heights are compared as they
+    /// Given (m), from the body's point along the base frame's z: heights are compared as they
     /// are. The platform's markers are 7.5 mm above its outer face.
     Given(f64),
 }
@@ -80,14 +80,14 @@ pub enum OffsetZ {
 /// Where a marker point sits on a simulated body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MarkerFrame {
-    /// From the body's point to the marker point [m], in axes fixed to the body that lie along
+    /// From the body's point to the marker point (m), in axes fixed to the body that lie along
     /// the base frame's while the robot rests.
     pub offset: Vector3<f64>,
 }
 
 impl MarkerFrame {
     /// Finds the marker point on a body from where it was recorded at rest (a pose of
-    /// [`Reference`]) and where the simulated body's point is at rest [m], both in the base frame.
+    /// [`Reference`]) and where the simulated body's point is at rest (m), both in the base frame.
     #[must_use]
     pub fn new(recorded: &Pose, simulated: &Vector3<f64>, height: OffsetZ) -> Self {
         let mut offset = recorded.translation.vector - simulated;
@@ -97,11 +97,11 @@ impl MarkerFrame {
         Self { offset }
     }
 
-    /// The pose that motion capture would show for a simulated body: its marker point [m] and its
+    /// The pose that motion capture would show for a simulated body: its marker point (m) and its
     /// rotation from rest, to compare with [`BasePoses::from_rest`] and
     /// [`SteadySamples`](crate::SteadySamples).
     ///
-    /// `body` has the body's point [m] and its rotation from rest along the base frame's axes.
+    /// `body` has the body's point (m) and its rotation from rest along the base frame's axes.
     #[must_use]
     pub fn marker_pose(&self, body: &Pose) -> Pose {
         crate::frames::shifted(body, body.rotation * self.offset)

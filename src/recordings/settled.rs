@@ -12,7 +12,7 @@ use crate::{BasePoses, Error, Recording, Reference, RobotGeometry, SteadySamples
 pub struct SettleRule {
     /// Fastest that any motor may turn, in the unit of [`Recording::velocities`].
     pub max_velocity: f64,
-    /// Farthest that any motor may be from where it is in the dwell's last row [ticks].
+    /// Farthest that any motor may be from where it is in the dwell's last row (ticks).
     pub max_drift: f64,
     /// Rows to wait after the motors have stopped, for the robot to come to rest.
     pub wait: usize,

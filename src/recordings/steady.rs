@@ -12,11 +12,11 @@ use crate::{Pose, Reference, RobotGeometry};
 /// them: the marker point's position and the rotation from rest.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SteadySamples {
-    /// Time [s].
+    /// Time (s).
     pub time: Vec<f64>,
     /// Row of the recording whose motor readings belong to the sample.
     pub row: Vec<usize>,
-    /// Motor angles [rad], zero in the first row with real motor readings.
+    /// Motor angles (rad), zero in the first row with real motor readings.
     pub angles: Vec<[f64; 4]>,
     /// Platform.
     pub platform: Vec<Pose>,
@@ -68,7 +68,7 @@ impl SteadySamples {
     }
 
     /// Arc lengths of the three points of [`rod_poses`](Self::rod_poses) along the flexible part
-    /// of the rod [m]: their heights at rest.
+    /// of the rod (m): their heights at rest.
     #[must_use]
     pub fn arc_lengths(&self, geometry: &RobotGeometry) -> [f64; 3] {
         let [_, tip_offset] = self.marker_offsets(geometry);
@@ -78,7 +78,7 @@ impl SteadySamples {
         [0.0, ring.translation.z - base, tip.z - base]
     }
 
-    /// Marker points of ring and platform as seen from ring and rod tip, in their own frames [m].
+    /// Marker points of ring and platform as seen from ring and rod tip, in their own frames (m).
     fn marker_offsets(&self, geometry: &RobotGeometry) -> [Vector3<f64>; 2] {
         let horizontal = |v: Vector3<f64>| Vector3::new(v.x, v.y, 0.0);
         let Reference { platform, ring, .. } = &self.reference;

@@ -64,39 +64,6 @@ impl Recording {
             None => Ok(()),
         }
     }
-
-    /// Checks what [`Recording::read`] would check.
-    fn check(&self) -> Result<(), Error> {
-        let fault = |reason: &str| {
-            Err(Error::Inconsistent {
-                recording: self.name.clone(),
-                reason: reason.into(),
-            })
-        };
-        let series = [&self.goal, &self.present, &self.velocities, &self.loads];
-        let tracks: Vec<_> = (self.mocap.iter())
-            .flat_map(|mocap| Body::ALL.map(|body| mocap.track(body)))
-            .collect();
-        let mut lengths = (series.iter().map(|series| series.len()))
-            .chain((tracks.iter()).flat_map(|track| [track.position.len(), track.rotation.len()]));
-        if self.time.is_empty() {
-            return fault("it has no row");
-        }
-        if lengths.any(|length| length != self.len()) {
-            return fault("its series are not of equal length");
-        }
-        let mut numbers = (self.time.iter())
-            .chain(series.into_iter().flatten().flatten())
-            .chain((tracks.iter()).flat_map(|track| track.position.iter().flatten()))
-            .chain((tracks.iter()).flat_map(|track| track.rotation.iter().flat_map(|q| &q.coords)));
-        if !numbers.all(|number| number.is_finite()) {
-            return fault("it holds a number that is not finite");
-        }
-        if !self.time.is_sorted_by(|a, b| a < b) {
-            return fault("its time does not increase from row to row");
-        }
-        Ok(())
-    }
 }
 
 /// Rows of the motion-capture file; frames count from one.

@@ -45,8 +45,9 @@ fn audits_find_what_is_known_of_the_runs() {
                 if twisting_ring { 9 } else { 0 },
                 "{name} {body:?}"
             );
-            assert_eq!(body.sign_flips == 0, !twisting_ring, "{name} {body:?}");
+            assert_eq!(body.sign_flips, 0);
             assert!((3..20).contains(&body.stale.len()));
+            assert!(body.jumps.len() < 150, "most steps at rest are noise");
         }
         assert!(
             audit
