@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use crate::finding::{Finding, Span};
+use crate::node::{Body, Entry, Node};
 use crate::overrides::Override;
 use crate::patchwork::{Origin, Patchwork};
 use crate::path;
 use crate::problem::Problem;
-use crate::scan::{self, Body, Entry, Node};
+use crate::scan;
 
 /// Loads a file with the values of its bases; `above` are the files that led here.
 pub(crate) fn load(file: &Path, above: &mut Vec<PathBuf>) -> Result<Patchwork, Problem> {

@@ -3,7 +3,8 @@
 use ron::error::{Error, Position, SpannedError};
 
 use crate::finding::{Finding, Span};
-use crate::scan::{Body, Node};
+use crate::literal;
+use crate::node::{Body, Node, ended, smallest};
 use crate::suggest;
 
 /// What a refusal by ron means. `root` is the scanned `text`.
@@ -177,7 +178,7 @@ fn next(text: &str, root: &Node, at: usize) -> Span {
     let start = at + rest.len() - rest.trim_start().len();
     match smallest(root, &|node| node.span.start == start) {
         Some(node) => node.span.clone(),
-        None => start..start + crate::scan::token_length(&text[start..]),
+        None => start..start + literal::token(&text[start..]),
     }
 }
 
@@ -190,18 +191,4 @@ fn head(node: &Node) -> Span {
 
 fn is_bracket(node: &Node) -> bool {
     !matches!(node.body, Body::Leaf)
-}
-
-/// The innermost node that fits, of those that lie inside one another.
-pub(crate) fn smallest<'n>(root: &'n Node, fits: &dyn Fn(&Node) -> bool) -> Option<&'n Node> {
-    root.and_below().into_iter().rfind(|node| fits(node))
-}
-
-/// The value that ends at `at` or last before it.
-fn ended(root: &Node, at: usize) -> Option<&Node> {
-    let before = root
-        .and_below()
-        .into_iter()
-        .filter(|node| node.span.end <= at);
-    before.max_by_key(|node| node.span.end)
 }

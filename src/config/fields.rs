@@ -196,6 +196,7 @@ fn ron_words(root: &Value, schema: &Value, value: &Value) -> String {
                 .collect();
             format!("({})", fields.join(", "))
         }
-        other => other.to_string(),
+        // Whole numbers read better without `.0`.
+        other => other.to_string().trim_end_matches(".0").to_owned(),
     }
 }

@@ -1,8 +1,8 @@
 //! Following a path through a scanned text to the places that it means.
 
 use crate::finding::{Finding, Span};
+use crate::node::{Body, Entry, Node};
 use crate::path::{self, Kind, Step};
-use crate::scan::{Body, Entry, Node};
 use crate::suggest;
 
 /// Where an override goes.

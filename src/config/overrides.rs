@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::finding::{Finding, Span};
 use crate::follow::{self, Key, Target};
+use crate::literal;
 use crate::patchwork::{Origin, Patchwork, Piece};
 use crate::path;
 use crate::problem::Problem;
@@ -27,7 +28,7 @@ impl Override {
         let (_, length) = path::read(set).map_err(fault)?;
         let path_end = length + set[length..].len() - set[length..].trim_start().len();
         if !set[path_end..].starts_with('=') {
-            let end = path_end + scan::token_length(&set[path_end..]);
+            let end = path_end + literal::token(&set[path_end..]);
             let finding = Finding::new(path_end..end, "expected `=` and a value after the path")
                 .hint("for example `--set rods[0].length=0.1`");
             return Err(fault(finding));

@@ -1,7 +1,7 @@
 //! Paths such as `rods[0].length`: reading them, and naming the place of a byte by one.
 
 use crate::finding::{Finding, Span};
-use crate::scan::{Body, Entry, Node};
+use crate::node::{Body, Entry, Node};
 
 /// One step of a path, and where it stands in the path's text.
 #[derive(Debug)]

@@ -5,6 +5,7 @@ use std::any::{Any, TypeId};
 use ron::error::SpannedError;
 
 use crate::finding::Finding;
+use crate::literal;
 use crate::repair;
 use crate::scan;
 use crate::suggest;
@@ -91,7 +92,7 @@ pub(crate) fn build<H: ?Sized + Hook>(
     let name = &text[head.clone()];
     if !is_word(name) {
         let known = names::<H>();
-        let end = head.start + scan::token_length(&text[head.start..]);
+        let end = head.start + literal::token(&text[head.start..]);
         let message = format!("a {} begins with its name, as in `Name(..)`", H::NOUN);
         return Err(vec![
             Finding::new(head.start..end, message)

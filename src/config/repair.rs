@@ -3,9 +3,10 @@
 
 use ron::error::SpannedError;
 
-use crate::diagnose::{diagnose, smallest};
+use crate::diagnose::diagnose;
 use crate::finding::{Finding, Span};
-use crate::scan::{self, Body, Entry, Node};
+use crate::node::{Body, Entry, Node, smallest};
+use crate::scan;
 
 /// No reader wants more at once.
 pub(crate) const MOST: usize = 16;

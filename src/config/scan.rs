@@ -5,61 +5,11 @@
 //! where it was opened.
 
 use crate::finding::{Finding, Span};
+use crate::literal;
+use crate::node::{Body, Entry, Node};
 
 /// Deeper than any scenario needs and shallow enough for every stack; below ron's own limit.
 const DEEPEST: usize = 60;
-
-/// A value: `span` includes the name in front of a bracket, as in `Gravity(..)`.
-#[derive(Debug)]
-pub(crate) struct Node {
-    pub span: Span,
-    pub name: Option<Span>,
-    pub body: Body,
-}
-
-/// What a value is made of.
-#[derive(Debug)]
-pub(crate) enum Body {
-    /// A number, string, character or bare word.
-    Leaf,
-    /// `(key: value, ..)`, and also `()`.
-    Struct(Vec<Entry>),
-    /// `(value, ..)`
-    Tuple(Vec<Node>),
-    /// `[value, ..]`
-    List(Vec<Node>),
-    /// `{key: value, ..}`
-    Map(Vec<Entry>),
-}
-
-impl Node {
-    /// The node and all that it holds, the outer before the inner.
-    pub fn and_below(&self) -> Vec<&Node> {
-        let inner: Vec<_> = match &self.body {
-            Body::Leaf => Vec::new(),
-            Body::Struct(entries) | Body::Map(entries) => {
-                entries.iter().map(|entry| &entry.value).collect()
-            }
-            Body::Tuple(items) | Body::List(items) => items.iter().collect(),
-        };
-        std::iter::once(self)
-            .chain(inner.into_iter().flat_map(Node::and_below))
-            .collect()
-    }
-}
-
-/// A `key: value` pair.
-#[derive(Debug)]
-pub(crate) struct Entry {
-    pub key: Span,
-    pub value: Node,
-}
-
-impl Entry {
-    pub fn span(&self) -> Span {
-        self.key.start..self.value.span.end
-    }
-}
 
 /// Scans a whole document: optional `#![enable(..)]` header, then one value.
 pub(crate) fn document(text: &str) -> Result<Node, Finding> {
@@ -117,7 +67,7 @@ impl<'a> Scanner<'a> {
             if rest.starts_with("//") {
                 self.at += rest.find('\n').unwrap_or(rest.len());
             } else if rest.starts_with("/*") {
-                self.at += block_comment(rest).ok_or_else(|| {
+                self.at += literal::block_comment(rest).ok_or_else(|| {
                     Finding::new(start..start + 2, "this comment is never closed")
                         .hint("close it with `*/`")
                 })?;
@@ -133,7 +83,7 @@ impl<'a> Scanner<'a> {
         let start = self.at;
         while !self.eat(']') {
             match self.peek() {
-                Some('"') => self.quoted('"', 1)?,
+                Some(_) if self.string()? => {}
                 Some(c) => self.at += c.len_utf8(),
                 None => {
                     return Err(
@@ -163,8 +113,6 @@ impl<'a> Scanner<'a> {
         self.blank()?;
         let start = self.at;
         match self.peek() {
-            Some('"') => self.quoted('"', 1)?,
-            Some('\'') => self.quoted('\'', 1)?,
             Some('(' | '[' | '{') => return self.group(start, None),
             None | Some(',' | ':' | ')' | ']' | '}') => {
                 return Err(Finding::new(
@@ -172,7 +120,7 @@ impl<'a> Scanner<'a> {
                     format!("expected a value, found {}", self.found()),
                 ));
             }
-            Some(_) if self.prefixed_string()? => {}
+            Some(_) if self.string()? => {}
             Some(_) => return self.word(),
         }
         Ok(Node {
@@ -200,40 +148,20 @@ impl<'a> Scanner<'a> {
         })
     }
 
-    /// `r"..", r#".."#, b"..", br"..", b'.'`; false if the text here is none of these.
-    fn prefixed_string(&mut self) -> Result<bool, Finding> {
+    /// Skips a string or character; false if there is none here.
+    fn string(&mut self) -> Result<bool, Finding> {
         let start = self.at;
-        let body = self.rest().trim_start_matches(['b', 'r']);
-        let prefix = self.rest().len() - body.len();
-        let marks = body.len() - body.trim_start_matches('#').len();
-        match &self.rest().as_bytes()[..prefix] {
-            b"b" if body.starts_with('"') => self.quoted('"', 2)?,
-            b"b" if body.starts_with('\'') => self.quoted('\'', 2)?,
-            b"r" | b"br" if body[marks..].starts_with('"') => {
-                let end = format!("\"{}", "#".repeat(marks));
-                let inside = &body[marks + 1..];
-                let length = inside.find(&end).ok_or_else(|| never_closed(start, '"'))?;
-                self.at += prefix + marks + 1 + length + end.len();
+        match literal::string(self.rest()) {
+            None => Ok(false),
+            Some(Ok(length)) => {
+                self.at += length;
+                Ok(true)
             }
-            _ => return Ok(false),
+            Some(Err(mark)) => Err(
+                Finding::new(start..start + 1, "this string is never closed")
+                    .hint(format!("add the missing `{mark}`")),
+            ),
         }
-        Ok(true)
-    }
-
-    /// Skips a quoted text whose opening mark ends `opening` bytes from here.
-    fn quoted(&mut self, mark: char, opening: usize) -> Result<(), Finding> {
-        let start = self.at;
-        self.at += opening;
-        while let Some(c) = self.peek() {
-            self.at += c.len_utf8();
-            if c == mark {
-                return Ok(());
-            }
-            if c == '\\' {
-                self.at += self.peek().map_or(0, char::len_utf8);
-            }
-        }
-        Err(never_closed(start, mark))
     }
 
     fn group(&mut self, start: usize, name: Option<Span>) -> Result<Node, Finding> {
@@ -323,7 +251,7 @@ impl<'a> Scanner<'a> {
 
     /// The span of the token here, for messages.
     fn token(&self) -> Span {
-        self.at..self.at + token_length(self.rest())
+        self.at..self.at + literal::token(self.rest())
     }
 
     fn found(&self) -> String {
@@ -331,40 +259,5 @@ impl<'a> Scanner<'a> {
             "" => "the end of the text".to_owned(),
             token => format!("`{token}`"),
         }
-    }
-}
-
-fn never_closed(start: usize, mark: char) -> Finding {
-    Finding::new(start..start + 1, "this string is never closed")
-        .hint(format!("add the missing `{mark}`"))
-}
-
-fn block_comment(text: &str) -> Option<usize> {
-    let (mut depth, mut at) = (0, 0);
-    loop {
-        let rest = &text[at..];
-        if rest.starts_with("/*") {
-            depth += 1;
-            at += 2;
-        } else if rest.starts_with("*/") {
-            depth -= 1;
-            at += 2;
-        } else {
-            at += rest.chars().next()?.len_utf8();
-        }
-        if depth == 0 {
-            return Some(at);
-        }
-    }
-}
-
-/// Length of the word, or of the single mark, with which `text` begins.
-pub(crate) fn token_length(text: &str) -> usize {
-    let is_mark = |c: char| c.is_whitespace() || ",:()[]{}\"'".contains(c);
-    let word = text.find(is_mark).unwrap_or(text.len());
-    let comment = ["//", "/*"].iter().filter_map(|mark| text.find(mark)).min();
-    match word.min(comment.unwrap_or(word)) {
-        0 => text.chars().next().map_or(0, char::len_utf8),
-        length => length,
     }
 }

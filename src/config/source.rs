@@ -10,13 +10,14 @@ use serde::Deserialize;
 use crate::derived;
 use crate::finding::{Finding, Span};
 use crate::follow::{self, Target};
+use crate::node::Node;
 use crate::overrides::Override;
 use crate::patchwork::Patchwork;
 use crate::path;
 use crate::plugin::{self, Hook};
 use crate::problem::{Problem, Problems};
 use crate::repair;
-use crate::scan::{self, Node};
+use crate::scan;
 
 /// A scenario text with its bases and overrides resolved, which knows where every byte of it was
 /// written.

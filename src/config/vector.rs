@@ -13,15 +13,23 @@ use crate::number::Finite;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vec3([f64; 3]);
 
-impl From<[Finite; 3]> for Vec3 {
-    fn from(numbers: [Finite; 3]) -> Self {
-        Self(numbers.map(f64::from))
+impl Vec3 {
+    /// The vector of these components.
+    ///
+    /// # Errors
+    /// If one of them is not finite.
+    pub fn new(components: [f64; 3]) -> Result<Self, String> {
+        components
+            .iter()
+            .try_for_each(|x| Finite::new(*x).map(|_| ()))?;
+        Ok(Self(components))
     }
 }
 
 impl<'de> Deserialize<'de> for Vec3 {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        <[Finite; 3]>::deserialize(deserializer).map(Self::from)
+        let components = <[Finite; 3]>::deserialize(deserializer)?;
+        Ok(Self(components.map(f64::from)))
     }
 }
 

@@ -312,7 +312,7 @@ fn fields_are_described_in_words() {
         [
             "axis: direction (x, y, z), normalised = None true",
             "side: Left | Right = Some(\"Left\") false",
-            "damping: number of at least 0 = Some(\"0.0\") false",
+            "damping: number of at least 0 = Some(\"0\") false",
             "stiffness: positive number or list of them = None true",
             "count: whole number of at least 1 = None false",
             "names: list of text = None true",
@@ -337,4 +337,20 @@ fn fields_are_described_in_words() {
 fn plugins_are_listed_by_noun_and_name() {
     let names: Vec<_> = plugins().map(|plugin| (plugin.noun, plugin.name)).collect();
     assert!(names.is_sorted());
+}
+
+#[test]
+fn a_program_adds_problems_of_its_own() {
+    let text = "(\n forcing: [Gravity(g: (0, 0, 1))],\n)";
+    let source = Source::from_text("test.ron", text, &[]).unwrap();
+    let scenario: Scenario = source.parse().unwrap();
+    assert_eq!(source.path_of(scenario.forcing[0]), "forcing[0]");
+    let problem = source
+        .problem_in(scenario.forcing[0], "too much")
+        .with_hint("take less");
+    assert_eq!((problem.line, problem.column), (2, 12));
+    assert!(problem.to_string().contains("help: take less"), "{problem}");
+    let problem = source.problem("forcing[0].g[2]", "too much");
+    assert_eq!((problem.line, problem.column), (2, 30));
+    assert_eq!(source.problem("none.such", "too much").line, 1);
 }
