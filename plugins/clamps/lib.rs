@@ -1,1 +1,7 @@
-//! (being written)
+//! Boundary conditions that hold the ends of rods, or rigid bodies.
+
+mod clamp;
+mod hold;
+
+pub use clamp::Clamp;
+pub use hold::{Axis, Hold};

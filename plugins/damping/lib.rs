@@ -1,1 +1,5 @@
-//! (being written)
+//! Dissipation.
+
+mod linear_damping;
+
+pub use linear_damping::LinearDamping;

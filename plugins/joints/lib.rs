@@ -1,1 +1,5 @@
-//! (being written)
+//! Joints between bodies.
+
+mod spring_damper;
+
+pub use spring_damper::SpringDamper;

@@ -95,3 +95,15 @@ checked!(
     // Whole numbers are exact in f64 up to this bound, which no count comes near.
     |x| x >= 1.0 && x.fract() == 0.0 && x < 9_007_199_254_740_992.0, x as usize
 );
+
+impl Default for NonNegative {
+    fn default() -> Self {
+        Self(0.0)
+    }
+}
+
+impl Default for Finite {
+    fn default() -> Self {
+        Self(0.0)
+    }
+}

@@ -19,6 +19,16 @@ pub enum End {
     Tip,
 }
 
+/// How a boundary condition holds the frame of a rod's end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
+pub enum Cell {
+    /// The end element is fixed, as in PyElastica; half of its length doesn't bend.
+    #[default]
+    Rigid,
+    /// The end element turns against a wall over half of its length.
+    Half,
+}
+
 /// A rigid end of a rod.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Cap {
@@ -156,14 +166,13 @@ impl Bodies {
         let caps = [0, n - 1].map(|e| rod.section(e));
         let caps = std::array::from_fn::<_, 2, _>(|end| Cap {
             length: rod.caps[end],
-            mass: rod.density[if end == 0 { 0 } else { n - 1 }]
-                * caps[end].area()
-                * rod.caps[end],
+            mass: rod.density[if end == 0 { 0 } else { n - 1 }] * caps[end].area() * rod.caps[end],
         });
         let first = self.stations();
         for k in 0..=n {
             let (left, right) = (k.checked_sub(1), (k < n).then_some(k));
-            let half_mass = |e: usize| rod.density[e] * rod.section(e).area() * element_length / 2.0;
+            let half_mass =
+                |e: usize| rod.density[e] * rod.section(e).area() * element_length / 2.0;
             let mut mass: f64 = [left, right].into_iter().flatten().map(half_mass).sum();
             if k == 0 {
                 mass += caps[0].mass;

@@ -91,7 +91,9 @@ impl Inputs {
 
     /// Every input with its name.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Series)> {
-        self.channels.iter().map(|(name, series)| (name.as_str(), series))
+        self.channels
+            .iter()
+            .map(|(name, series)| (name.as_str(), series))
     }
 }
 
@@ -119,7 +121,9 @@ impl Signal {
     pub fn at(&self, now: &Moment<'_>) -> f64 {
         match self {
             Self::Constant(value) => (*value).into(),
-            Self::Ramp { to, over } => f64::from(*to) * (now.time / f64::from(*over)).clamp(0.0, 1.0),
+            Self::Ramp { to, over } => {
+                f64::from(*to) * (now.time / f64::from(*over)).clamp(0.0, 1.0)
+            }
             Self::Input(name) => now.inputs.get(name).map_or(0.0, |s| s.at(now.time)),
             Self::Table(series) => series.at(now.time),
         }

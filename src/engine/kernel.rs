@@ -38,11 +38,11 @@ impl Bodies {
             for k in layout.element_stations() {
                 let dilatation = self.length[k] / self.rest_length[k];
                 self.dilatation[k] = dilatation;
-                let sigma = self.state.director.get(k) * self.tangent.get(k) * dilatation
-                    - Vector3::z();
+                let sigma =
+                    self.state.director.get(k) * self.tangent.get(k) * dilatation - Vector3::z();
                 self.sigma.set(k, sigma);
-                let elastic = (sigma - self.rest_sigma.get(k))
-                    .component_mul(&self.shear_stretch.get(k));
+                let elastic =
+                    (sigma - self.rest_sigma.get(k)).component_mul(&self.shear_stretch.get(k));
                 self.stress.set(k, elastic);
             }
             let last = layout.first + layout.elements;
@@ -80,7 +80,8 @@ impl Bodies {
         for layout in &self.layouts {
             let last = layout.first + layout.elements;
             let mut previous_force = Vector3::zeros();
-            let (mut previous_couple, mut previous_transport) = self.cell_loads(layout, layout.first);
+            let (mut previous_couple, mut previous_transport) =
+                self.cell_loads(layout, layout.first);
             for k in layout.element_stations() {
                 let director = self.state.director.get(k);
                 let stress = self.stress.get(k);
@@ -105,16 +106,15 @@ impl Bodies {
 
     /// Couple over dilatation cubed, and the couple that the cell's own rotation transports.
     #[inline]
-    fn cell_loads(
-        &self,
-        layout: &crate::bodies::Layout,
-        k: usize,
-    ) -> (Vector3<f64>, Vector3<f64>) {
+    fn cell_loads(&self, layout: &crate::bodies::Layout, k: usize) -> (Vector3<f64>, Vector3<f64>) {
         if !layout.cells().contains(&k) {
             return (Vector3::zeros(), Vector3::zeros());
         }
         let couple = self.couple.get(k) / self.voronoi_dilatation[k].powi(3);
-        (couple, self.kappa.get(k).cross(&couple) * self.rest_voronoi[k])
+        (
+            couple,
+            self.kappa.get(k).cross(&couple) * self.rest_voronoi[k],
+        )
     }
 
     /// Velocities and angular velocities after `dt` under the present loads (eq. 2.16, 2.17).

@@ -19,7 +19,10 @@ pub mod system;
 pub mod vectors;
 pub mod view;
 
-pub use bodies::End;
+pub use auxetica_config::{
+    Count, Direction, Finite, NonNegative, Positive, Profile, Vec3, register,
+};
+pub use bodies::{Cell, End};
 pub use cylinder::Cylinder;
 pub use hooks::{
     Actuation, BoundaryCondition, Callback, CallbackError, Damping, Forcing, Joint, RodLaw,

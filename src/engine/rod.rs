@@ -53,8 +53,7 @@ impl Section {
 
     /// Second moments of area about `d1, d2, d3` \[m4\].
     pub fn second_moment(&self) -> Vector3<f64> {
-        let bending =
-            std::f64::consts::FRAC_PI_4 * (self.outside.powi(4) - self.inside.powi(4));
+        let bending = std::f64::consts::FRAC_PI_4 * (self.outside.powi(4) - self.inside.powi(4));
         Vector3::new(bending, bending, 2.0 * bending)
     }
 

@@ -50,8 +50,7 @@ pub fn log(r: &Matrix3<f64>) -> Vector3<f64> {
         // asin(s)/s as a series in s^2
         let s = sine_squared;
         let ratio = 1.0
-            + s / 6.0
-                * (1.0 + s * 9.0 / 20.0 * (1.0 + s * 25.0 / 42.0 * (1.0 + s * 49.0 / 72.0)));
+            + s / 6.0 * (1.0 + s * 9.0 / 20.0 * (1.0 + s * 25.0 / 42.0 * (1.0 + s * 49.0 / 72.0)));
         twice_sine_axis * (ratio / 2.0)
     } else if cosine > -0.99 {
         let sine = sine_squared.sqrt();

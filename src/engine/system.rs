@@ -42,14 +42,16 @@ impl Group {
     /// Boundary values of positions and frames.
     pub(crate) fn set_values(&mut self, now: &Moment<'_>) {
         for b in &self.boundary {
-            b.hook.values(now, &mut PoseView::new(&mut self.bodies, b.body));
+            b.hook
+                .values(now, &mut PoseView::new(&mut self.bodies, b.body));
         }
     }
 
     /// Boundary values of rates.
     pub(crate) fn set_rates(&mut self, now: &Moment<'_>) {
         for b in &self.boundary {
-            b.hook.rates(now, &mut RateView::new(&mut self.bodies, b.body));
+            b.hook
+                .rates(now, &mut RateView::new(&mut self.bodies, b.body));
         }
     }
 
@@ -57,21 +59,25 @@ impl Group {
     pub(crate) fn loads(&mut self, now: &Moment<'_>) {
         self.internal_loads(now);
         for f in &self.forcing {
-            f.hook.apply(now, &mut LoadView::new(&mut self.bodies, f.body));
+            f.hook
+                .apply(now, &mut LoadView::new(&mut self.bodies, f.body));
         }
         for b in &self.boundary {
-            b.hook.loads(now, &mut LoadView::new(&mut self.bodies, b.body));
+            b.hook
+                .loads(now, &mut LoadView::new(&mut self.bodies, b.body));
         }
     }
 
     fn internal_loads(&mut self, now: &Moment<'_>) {
         self.bodies.measure();
         for l in &self.laws {
-            l.hook.rest(now, &mut LawView::new(&mut self.bodies, l.body));
+            l.hook
+                .rest(now, &mut LawView::new(&mut self.bodies, l.body));
         }
         self.bodies.strain();
         for l in &self.laws {
-            l.hook.stress(now, &mut LawView::new(&mut self.bodies, l.body));
+            l.hook
+                .stress(now, &mut LawView::new(&mut self.bodies, l.body));
         }
         self.bodies.internal_loads();
     }
@@ -81,7 +87,8 @@ impl Group {
         self.bodies.measure_rates();
         self.bodies.kick(dt);
         for d in &self.damping {
-            d.hook.damp(dt, &mut RateView::new(&mut self.bodies, d.body));
+            d.hook
+                .damp(dt, &mut RateView::new(&mut self.bodies, d.body));
         }
         self.set_rates(now);
     }
@@ -94,18 +101,22 @@ impl Group {
             let bodies = &self.bodies;
             let spoiled = |l: &&Hooked<dyn RodLaw>| {
                 let stations = bodies.layouts()[l.body].element_stations();
-                stations.into_iter().any(|k| !bodies.rest_length[k].is_finite())
+                stations
+                    .into_iter()
+                    .any(|k| !bodies.rest_length[k].is_finite())
             };
             return self.laws.iter().find(spoiled).map(|l| l.name.clone());
         }
         for f in &self.forcing {
-            f.hook.apply(now, &mut LoadView::new(&mut self.bodies, f.body));
+            f.hook
+                .apply(now, &mut LoadView::new(&mut self.bodies, f.body));
             if !finite(&self.bodies) {
                 return Some(f.name.clone());
             }
         }
         for b in &self.boundary {
-            b.hook.loads(now, &mut LoadView::new(&mut self.bodies, b.body));
+            b.hook
+                .loads(now, &mut LoadView::new(&mut self.bodies, b.body));
             if !finite(&self.bodies) {
                 return Some(b.name.clone());
             }
@@ -133,7 +144,9 @@ pub(crate) struct Applied {
 impl Connection {
     /// The joint's loads at the present poses.
     pub(crate) fn applied(&self, groups: &[Group], now: &Moment<'_>) -> [Applied; 2] {
-        let bodies = self.sides.map(|(id, _)| Body::new(&groups[id.group].bodies, id.index));
+        let bodies = self
+            .sides
+            .map(|(id, _)| Body::new(&groups[id.group].bodies, id.index));
         let [a, b] = [0, 1].map(|side| Site::of(&bodies[side], self.sides[side].1));
         let load = self.joint.load(now, &a, &b);
         let wrenches = [load.on_a, load.on_b];

@@ -5,6 +5,7 @@
 //! and one frame, so that a loop over nodes or frames serves rods and rigid bodies alike.
 
 use crate::bodies::{Bodies, Cap, End, Layout};
+use crate::site::{Place, Wrench};
 use nalgebra::{Matrix3, Vector3};
 
 /// Read access to a body's arrays.
@@ -260,6 +261,16 @@ impl LawView<'_> {
 }
 
 impl LoadView<'_> {
+    /// The body, for what only reads.
+    pub fn read(&self) -> Body<'_> {
+        Body::new(self.bodies, self.index)
+    }
+    /// Adds a force and a torque at a place of the body.
+    pub fn add_wrench(&mut self, place: Place, wrench: &Wrench) {
+        let (node, element, torque) = wrench.at_station(&self.read(), place);
+        self.add_force(node, wrench.force);
+        self.add_torque(element, torque);
+    }
     /// Adds a force on node `i`, world frame \[N\].
     pub fn add_force(&mut self, i: usize, force: Vector3<f64>) {
         let k = self.at(i);

@@ -97,7 +97,9 @@ impl SteadySolver {
         while system.time != time {
             let from = system.time;
             let mut to = time;
-            while self.largest_turn(system, to) > LARGEST_TURN && to - from > 1e-6 * (time - start_time) {
+            while self.largest_turn(system, to) > LARGEST_TURN
+                && to - from > 1e-6 * (time - start_time)
+            {
                 to = from + (to - from) / 2.0;
             }
             if let Err(e) = self.increments(system, to, &mut report) {
@@ -213,7 +215,11 @@ impl SteadySolver {
         for station in change.chunks_exact(PER_STATION) {
             largest = station[3..].iter().fold(largest, |m, v| m.max(v.abs()));
         }
-        for pair in change.chunks_exact(PER_STATION).collect::<Vec<_>>().windows(2) {
+        for pair in change
+            .chunks_exact(PER_STATION)
+            .collect::<Vec<_>>()
+            .windows(2)
+        {
             for i in 0..3 {
                 largest = largest.max((pair[1][i] - pair[0][i]).abs());
             }
@@ -254,10 +260,16 @@ impl SteadySolver {
         let after = self.poses(system);
         system.time = now;
         self.set_poses(system, &before);
-        let walls = before.iter().zip(&after).flat_map(|(b, a)| b.1.iter().zip(&a.1));
-        let walls = walls.flat_map(|(b, a)| [0, 1].map(|end| rotation::between(&b[end], &a[end]).amax()));
+        let walls = before
+            .iter()
+            .zip(&after)
+            .flat_map(|(b, a)| b.1.iter().zip(&a.1));
+        let walls =
+            walls.flat_map(|(b, a)| [0, 1].map(|end| rotation::between(&b[end], &a[end]).amax()));
         let frames = self.moves(&before, &after);
-        let frames = frames.chunks_exact(PER_STATION).flat_map(|s| s[3..].to_vec());
+        let frames = frames
+            .chunks_exact(PER_STATION)
+            .flat_map(|s| s[3..].to_vec());
         walls.chain(frames).fold(0.0, |m, v| m.max(v.abs()))
     }
 

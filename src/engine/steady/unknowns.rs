@@ -107,7 +107,10 @@ impl Unknowns {
         bodies.state.position.add(k, shift);
         let frame = bodies.state.director.get(k);
         let turn = by.fixed_rows::<3>(3).into_owned();
-        bodies.state.director.set(k, rotation::turned(&frame, &turn));
+        bodies
+            .state
+            .director
+            .set(k, rotation::turned(&frame, &turn));
     }
 
     /// Moves all stations.

@@ -1,0 +1,68 @@
+//! The spring-damper joint of Stölzle et al. 2023, eq. 6-7.
+
+use auxetica_engine::{Joint, JointLoad, Moment, NonNegative, Site, Wrench, register, rotation};
+use nalgebra::{Matrix3, Vector3};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+/// Holds two bodies together as they were at rest, by springs and dampers in translation and rotation. Without
+/// rotational stiffness it is a ball joint.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SpringDamper {
+    /// Translational stiffness k_F [N/m].
+    stiffness: NonNegative,
+    /// Translational damping nu_F [N s/m].
+    #[serde(default)]
+    damping: NonNegative,
+    /// Rotational stiffness k_tau [N m/rad].
+    #[serde(default)]
+    rotational_stiffness: NonNegative,
+    /// Rotational damping nu_tau [N m s/rad].
+    #[serde(default)]
+    rotational_damping: NonNegative,
+    #[serde(skip)]
+    rest: Rest,
+}
+
+/// The first body's pose at rest, seen from the second.
+#[derive(Clone, Debug, Default)]
+struct Rest {
+    lever: Vector3<f64>,
+    turn: Matrix3<f64>,
+}
+
+register!(
+    dyn Joint: SpringDamper,
+    example = "SpringDamper(stiffness: 5e5, rotational_stiffness: 20)",
+    source = "Stölzle et al. 2023, eq. 6-7",
+);
+
+impl Joint for SpringDamper {
+    fn load(&self, _now: &Moment<'_>, a: &Site, b: &Site) -> JointLoad {
+        let attachment = b.position + b.director.tr_mul(&self.rest.lever);
+        let speed = b.velocity + b.director.tr_mul(&b.omega.cross(&self.rest.lever));
+        let force =
+            (attachment - a.position) * *self.stiffness + (speed - a.velocity) * *self.damping;
+
+        let wanted = self.rest.turn * b.director;
+        let to_a = a.director * b.director.transpose();
+        let torque = rotation::between(&a.director, &wanted) * *self.rotational_stiffness
+            + (to_a * b.omega - a.omega) * *self.rotational_damping;
+        JointLoad {
+            on_a: Wrench { force, torque },
+            on_b: Wrench {
+                force: -force,
+                torque: self.rest.lever.cross(&(b.director * -force)) - to_a.tr_mul(&torque),
+            },
+        }
+    }
+
+    fn attach(&mut self, a: &Site, b: &Site) -> Result<(), String> {
+        self.rest = Rest {
+            lever: b.director * (a.position - b.position),
+            turn: a.director * b.director.transpose(),
+        };
+        Ok(())
+    }
+}
