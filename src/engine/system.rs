@@ -360,6 +360,11 @@ impl System {
         self.steps
     }
 
+    /// Stations of all bodies.
+    pub fn stations(&self) -> usize {
+        self.groups.iter().map(|g| g.bodies.stations()).sum()
+    }
+
     /// Elements of all rods.
     pub fn elements(&self) -> usize {
         self.ids.iter().map(|id| self.body(*id).elements()).sum()
@@ -541,6 +546,12 @@ pub struct Saved {
     time: f64,
     steps: u64,
     states: Vec<State>,
+}
+
+impl Saved {
+    pub(crate) fn states(&self) -> &[State] {
+        &self.states
+    }
 }
 
 fn hooked<T: ?Sized>(name: &str, id: BodyId, hook: Box<T>) -> Hooked<T> {

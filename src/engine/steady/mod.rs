@@ -94,7 +94,7 @@ impl SteadySolver {
         let mut report = SteadyReport::default();
         let start = self.poses(system);
         let start_time = system.time;
-        while system.time != time {
+        loop {
             let from = system.time;
             let mut to = time;
             while self.largest_turn(system, to) > LARGEST_TURN
@@ -107,16 +107,10 @@ impl SteadySolver {
                 system.time = start_time;
                 return Err(e);
             }
+            if to >= time {
+                return Ok(report);
+            }
         }
-        Ok(report)
-    }
-
-    /// Makes the present state steady at the present time.
-    pub fn settle(&mut self, system: &mut System) -> Result<SteadyReport, NotSteady> {
-        let mut report = SteadyReport::default();
-        let time = system.time;
-        self.increments(system, time, &mut report)?;
-        Ok(report)
     }
 
     /// From the present state to `time` by growing or shrinking increments of boundary values and imbalance.

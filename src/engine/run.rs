@@ -1,0 +1,197 @@
+//! Solving a model from start to end, with its callbacks.
+
+use crate::hooks::{CallbackError, Snapshot};
+use crate::scenario::{LARGEST_SHARE, Model, Solver, Watcher};
+use crate::stability;
+use crate::steady::{NotSteady, SteadyOptions, SteadyReport, SteadySolver};
+use crate::system::{BlowUp, System};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+/// Steps between reports of progress.
+const STEPS_PER_REPORT: u64 = 256;
+
+/// Why a run didn't reach its end. What was recorded until then is kept.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// Something became infinite or NaN.
+    #[error("{blow_up}; the largest stable time step at the start was {limit:.3e} s, this run took {dt:.3e} s")]
+    BlowUp {
+        /// When, where and why.
+        blow_up: Box<BlowUp>,
+        /// Stability limit \[s\].
+        limit: f64,
+        /// Time step \[s\].
+        dt: f64,
+    },
+    /// The time step is too long.
+    #[error(
+        "the time step of {dt:.3e} s is beyond the stability limit of {limit:.3e} s at the start; give `solver.dt` \
+         {:.3e} or less, leave it out, or set `solver.unstable: true` to go on all the same",
+        limit * LARGEST_SHARE
+    )]
+    Unstable {
+        /// Time step \[s\].
+        dt: f64,
+        /// Stability limit \[s\].
+        limit: f64,
+    },
+    /// No equilibrium was found.
+    #[error(transparent)]
+    NotSteady(#[from] NotSteady),
+    /// Results could not be kept.
+    #[error(transparent)]
+    Callback(#[from] CallbackError),
+    /// The user stopped the run.
+    #[error("the run was stopped at t = {time:.6} s; what was recorded until then is kept")]
+    Interrupted {
+        /// Time \[s\].
+        time: f64,
+    },
+}
+
+/// What a run did.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Time reached \[s\].
+    pub time: f64,
+    /// Steps of a dynamic run.
+    pub steps: u64,
+    /// Time step \[s\] of a dynamic run.
+    pub dt: f64,
+    /// Stability limit \[s\] of a dynamic run, at its start.
+    pub stability_limit: f64,
+    /// Time \[s\] and cost of each steady state.
+    pub steady: Vec<(f64, SteadyReport)>,
+    /// Files written by callbacks.
+    pub files: Vec<PathBuf>,
+}
+
+/// Tells how much is done (0 to 1) and asks whether to go on.
+pub type Progress<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
+
+impl Model {
+    /// Solves the model. Callbacks write to `out`; they are finished whatever happens.
+    pub fn run(&mut self, out: &Path, progress: &mut Progress<'_>) -> Result<Summary, RunError> {
+        let mut summary = Summary::default();
+        self.system.apply_boundaries();
+        let mut started = 0;
+        let mut outcome = Ok(());
+        for watcher in &mut self.watchers {
+            let bodies: Vec<_> = watcher.bodies.iter().map(|id| self.system.body(*id)).collect();
+            if let Err(e) = watcher.callback.start(out, &bodies) {
+                outcome = Err(e.into());
+                break;
+            }
+            started += 1;
+        }
+        if outcome.is_ok() {
+            outcome = match self.solver.clone() {
+                Solver::Dynamic {
+                    duration,
+                    dt,
+                    unstable,
+                } => self.run_dynamic(*duration, dt.map(|d| *d), unstable, &mut summary, progress),
+                Solver::Steady { at, tolerance } => {
+                    let at = at.iter().map(|t| **t).collect();
+                    self.run_steady(at, *tolerance, &mut summary, progress)
+                }
+            };
+        }
+        summary.time = self.system.time();
+        for watcher in &mut self.watchers[..started] {
+            match watcher.callback.finish() {
+                Ok(files) => summary.files.extend(files),
+                Err(e) if outcome.is_ok() => outcome = Err(e.into()),
+                Err(_) => {} // the first failure is the one to tell
+            }
+        }
+        outcome.map(|()| summary)
+    }
+
+    fn run_dynamic(
+        &mut self,
+        duration: f64,
+        dt: Option<f64>,
+        unstable: bool,
+        summary: &mut Summary,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), RunError> {
+        let system = &mut self.system;
+        let guess = dt.unwrap_or_else(|| stability::wave_time(system));
+        let limit = stability::limit(system, guess);
+        let wanted = dt.unwrap_or(limit * LARGEST_SHARE);
+        if wanted > limit && !unstable {
+            return Err(RunError::Unstable { dt: wanted, limit });
+        }
+        let steps = (duration / wanted).ceil().max(1.0);
+        let dt = duration / steps;
+        (summary.dt, summary.stability_limit) = (dt, limit);
+        system.evaluate();
+        let start = system.time();
+        let mut next: Vec<f64> = vec![start; self.watchers.len()];
+        for step in 0..=steps as u64 {
+            for (watcher, next) in self.watchers.iter_mut().zip(&mut next) {
+                if system.time() >= *next - dt / 2.0 {
+                    watcher.call(system)?;
+                    *next += watcher.every;
+                }
+            }
+            if step % STEPS_PER_REPORT == 0 && progress(step as f64 / steps).is_break() {
+                let time = system.time();
+                return Err(RunError::Interrupted { time });
+            }
+            if step == steps as u64 {
+                break;
+            }
+            if let Err(blow_up) = system.step(dt) {
+                let blow_up = Box::new(blow_up);
+                return Err(RunError::BlowUp { blow_up, limit, dt });
+            }
+            summary.steps = step + 1;
+        }
+        Ok(())
+    }
+
+    fn run_steady(
+        &mut self,
+        mut at: Vec<f64>,
+        tolerance: f64,
+        summary: &mut Summary,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), RunError> {
+        if at.is_empty() {
+            at.clone_from(&self.dwells);
+        }
+        if at.is_empty() {
+            at.push(0.0);
+        }
+        let options = SteadyOptions {
+            tolerance,
+            ..SteadyOptions::default()
+        };
+        let mut solver = SteadySolver::new(&mut self.system, options)?;
+        for (done, time) in at.iter().enumerate() {
+            if progress(done as f64 / at.len() as f64).is_break() {
+                let time = self.system.time();
+                return Err(RunError::Interrupted { time });
+            }
+            let report = solver.advance(&mut self.system, *time)?;
+            summary.steady.push((*time, report));
+            for watcher in &mut self.watchers {
+                watcher.call(&self.system)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Watcher {
+    fn call(&mut self, system: &System) -> Result<(), CallbackError> {
+        let snapshot = Snapshot {
+            time: system.time(),
+            bodies: self.bodies.iter().map(|id| system.body(*id)).collect(),
+        };
+        self.callback.record(&snapshot)
+    }
+}

@@ -1,0 +1,147 @@
+//! Scenario files: what they may say, and the [`Model`] that comes of them.
+
+mod assemble;
+mod bodies;
+mod targets;
+
+pub use assemble::{LARGEST_SHARE, Model, Watcher};
+pub use bodies::{Caps, CylinderSpec, Material, RodGroup};
+pub use targets::Targets;
+
+use auxetica_config::{Finite, NonNegative, Positive, Vec3};
+use ron::value::RawValue;
+use serde::Deserialize;
+
+/// A scenario file, its plugins not yet read.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Scenario<'a> {
+    /// What the scenario shows, in a line.
+    pub title: String,
+    /// Groups of equal rods.
+    #[serde(default)]
+    pub rods: Vec<RodGroup>,
+    /// Rigid cylinders.
+    #[serde(default)]
+    pub cylinders: Vec<CylinderSpec>,
+    /// Rod laws; a rod without one is linear elastic.
+    #[serde(default, borrow)]
+    pub laws: Vec<Applied<'a>>,
+    /// External loads.
+    #[serde(default, borrow)]
+    pub forcing: Vec<Applied<'a>>,
+    /// Boundary conditions.
+    #[serde(default, borrow)]
+    pub boundary: Vec<Applied<'a>>,
+    /// Joints.
+    #[serde(default, borrow)]
+    pub joints: Vec<Connected<'a>>,
+    /// Damping; a steady run needs none.
+    #[serde(default, borrow)]
+    pub damping: Vec<Applied<'a>>,
+    /// The source of named inputs.
+    #[serde(default, borrow)]
+    pub inputs: Option<&'a RawValue>,
+    /// Named points that recordings are compared at.
+    #[serde(default)]
+    pub markers: Vec<Marker>,
+    /// How the scenario is solved.
+    pub solver: Solver,
+    /// What is done with the results.
+    #[serde(default, borrow)]
+    pub callbacks: Vec<Watched<'a>>,
+}
+
+/// A plugin and the bodies that it acts on.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Applied<'a> {
+    /// Bodies or groups by name; all that it can act on if absent.
+    #[serde(default)]
+    pub on: Targets,
+    /// The plugin.
+    #[serde(borrow)]
+    pub apply: &'a RawValue,
+}
+
+/// A joint and what it connects.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Connected<'a> {
+    /// Two bodies: `("rod_1", "platform")`. A rod is joined at its tip unless the name is followed by `.start` or by
+    /// a node, as in `rod_1[12]`. A group on the first side gives one joint for each of its rods.
+    pub between: (String, String),
+    /// The plugin.
+    #[serde(borrow)]
+    pub apply: &'a RawValue,
+}
+
+/// A callback, when it is called and what it sees.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Watched<'a> {
+    /// Time between calls \[s\] of a dynamic run; a steady run calls at every steady state.
+    #[serde(default = "hundredth")]
+    pub every: Positive,
+    /// Bodies or groups by name; all if absent.
+    #[serde(default)]
+    pub on: Targets,
+    /// The plugin.
+    #[serde(borrow)]
+    pub apply: &'a RawValue,
+}
+
+fn hundredth() -> Positive {
+    Positive::new(0.01).expect("the default is positive")
+}
+
+/// A point fixed to a body, with the body's frame there.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Marker {
+    /// What recordings call it: `platform`, `ring`.
+    pub name: String,
+    /// Name of the body.
+    pub on: String,
+    /// Where along a rod, as a fraction of its length between first and last node; ignored on rigid bodies.
+    #[serde(default)]
+    pub along: NonNegative,
+    /// Offset from there, in the frame there \[m\].
+    #[serde(default = "origin")]
+    pub offset: Vec3,
+}
+
+fn origin() -> Vec3 {
+    Vec3::new([0.0; 3]).expect("zero is finite")
+}
+
+/// How a scenario is solved.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Solver {
+    /// Explicit position Verlet through time.
+    Dynamic {
+        /// Duration \[s\].
+        duration: Positive,
+        /// Time step \[s\]; by default 0.9 of the stability limit at the start.
+        #[serde(default)]
+        dt: Option<Positive>,
+        /// Whether a time step beyond the stability limit is taken all the same.
+        #[serde(default)]
+        unstable: bool,
+    },
+    /// Static equilibria by Newton's method.
+    Steady {
+        /// Times \[s\] of inputs and ramps at which the steady state is sought, in this order; by default where the
+        /// inputs dwell, or else time 0.
+        #[serde(default)]
+        at: Vec<Finite>,
+        /// Last correction accepted: rotations \[rad\], and displacements in element lengths.
+        #[serde(default = "tolerance")]
+        tolerance: Positive,
+    },
+}
+
+fn tolerance() -> Positive {
+    Positive::new(1e-9).expect("the default is positive")
+}
