@@ -1,1 +1,26 @@
-//! (being written)
+//! Auxetica simulates slender soft robots: discrete Cosserat rods, handed shearing auxetics, and real recordings
+//! beside them. This crate is the facade: it links every shipped plugin and holds the command line.
+//!
+//! A program of your own with a plugin of yours in it:
+//! ```no_run
+//! # mod my_plugin {}
+//! use my_plugin as _;
+//! fn main() -> std::process::ExitCode {
+//!     auxetica::cli::main()
+//! }
+//! ```
+
+pub mod cli;
+
+pub use auxetica_config as config;
+pub use auxetica_engine as engine;
+pub use auxetica_recordings as recordings;
+
+// A plugin crate that nothing names is not linked, so each shipped one is named here.
+pub use auxetica_clamps as clamps;
+pub use auxetica_damping as damping;
+pub use auxetica_hsa as hsa;
+pub use auxetica_joints as joints;
+pub use auxetica_loads as loads;
+pub use auxetica_motors as motors;
+pub use auxetica_recorders as recorders;
