@@ -11,6 +11,7 @@
 //! ```
 
 pub mod cli;
+pub mod compare;
 
 pub use auxetica_config as config;
 pub use auxetica_engine as engine;

@@ -1,1 +1,5 @@
-fn main() {}
+//! The `auxetica` command.
+
+fn main() -> std::process::ExitCode {
+    auxetica::cli::main()
+}

@@ -1,1 +1,87 @@
-//! x
+//! The command line. Results go to stdout, everything else to stderr.
+
+mod check;
+mod compare;
+mod default_job;
+mod failure;
+mod plugins;
+mod progress;
+mod run;
+mod table;
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+pub use failure::Failure;
+
+/// Simulates slender soft robots and shows how far a simulation is from a real recording.
+///
+/// Without a command it runs the main job: the 4-rod robot of handed shearing auxetics under the motor angles of a
+/// real recording, body by body.
+#[derive(Parser)]
+#[command(version, max_term_width = 110)]
+struct Cli {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// No progress and no hints.
+    #[arg(long, short, global = true)]
+    quiet: bool,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Solve a scenario and keep what its callbacks write.
+    Run(run::Options),
+    /// Say everything that is wrong with scenarios, without solving them.
+    Check(check::Options),
+    /// List the plugins, or explain one: parameters, units, source.
+    Plugins(plugins::Options),
+    /// Run a scenario under a recording's motor angles and show how far both differ, body by body.
+    Compare(compare::Options),
+}
+
+/// A scenario file and what is changed in it.
+#[derive(Args)]
+struct ScenarioArgs {
+    /// Scenario file.
+    scenario: PathBuf,
+    /// Replace a value, as in `rods[0].length=0.12` or `laws[*].apply.factor=0.009`; may be given several times.
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
+}
+
+impl ScenarioArgs {
+    fn load(&self) -> Result<crate::config::Source, Failure> {
+        Ok(crate::config::Source::load(&self.scenario, &self.set)?)
+    }
+}
+
+/// Runs the command line of this process: the whole `main` of a program with plugins of its own.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let quiet = cli.quiet;
+    let done = match &cli.command {
+        None => default_job::run(quiet),
+        Some(Command::Run(options)) => run::run(options, quiet),
+        Some(Command::Check(options)) => check::run(options, quiet),
+        Some(Command::Plugins(options)) => plugins::run(options),
+        Some(Command::Compare(options)) => compare::run(options, quiet),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// Prints to stdout; a reader that has left is no error.
+fn print(text: &str) -> Result<(), Failure> {
+    use std::io::Write;
+    match writeln!(std::io::stdout().lock(), "{text}") {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::Output {
+            path: "stdout".into(),
+            source: e,
+        }),
+        _ => Ok(()),
+    }
+}

@@ -15,7 +15,9 @@ const STEPS_PER_REPORT: u64 = 256;
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// Something became infinite or NaN.
-    #[error("{blow_up}; the largest stable time step at the start was {limit:.3e} s, this run took {dt:.3e} s")]
+    #[error(
+        "{blow_up}; the largest stable time step at the start was {limit:.3e} s, this run took {dt:.3e} s"
+    )]
     BlowUp {
         /// When, where and why.
         blow_up: Box<BlowUp>,
@@ -71,14 +73,24 @@ pub struct Summary {
 pub type Progress<'a> = dyn FnMut(f64) -> ControlFlow<()> + 'a;
 
 impl Model {
-    /// Solves the model. Callbacks write to `out`; they are finished whatever happens.
-    pub fn run(&mut self, out: &Path, progress: &mut Progress<'_>) -> Result<Summary, RunError> {
+    /// Solves the model. Callbacks write to `out`; they are finished whatever happens. `reached` is told every steady
+    /// state, or the last state of a dynamic run.
+    pub fn run(
+        &mut self,
+        out: &Path,
+        progress: &mut Progress<'_>,
+        reached: &mut dyn FnMut(&Self),
+    ) -> Result<Summary, RunError> {
         let mut summary = Summary::default();
         self.system.apply_boundaries();
         let mut started = 0;
         let mut outcome = Ok(());
         for watcher in &mut self.watchers {
-            let bodies: Vec<_> = watcher.bodies.iter().map(|id| self.system.body(*id)).collect();
+            let bodies: Vec<_> = watcher
+                .bodies
+                .iter()
+                .map(|id| self.system.body(*id))
+                .collect();
             if let Err(e) = watcher.callback.start(out, &bodies) {
                 outcome = Err(e.into());
                 break;
@@ -91,10 +103,14 @@ impl Model {
                     duration,
                     dt,
                     unstable,
-                } => self.run_dynamic(*duration, dt.map(|d| *d), unstable, &mut summary, progress),
+                } => {
+                    let dt = dt.map(|dt| *dt);
+                    let done = self.run_dynamic(*duration, dt, unstable, &mut summary, progress);
+                    done.inspect(|()| reached(self))
+                }
                 Solver::Steady { at, tolerance } => {
                     let at = at.iter().map(|t| **t).collect();
-                    self.run_steady(at, *tolerance, &mut summary, progress)
+                    self.run_steady(at, *tolerance, &mut summary, progress, reached)
                 }
             };
         }
@@ -159,6 +175,7 @@ impl Model {
         tolerance: f64,
         summary: &mut Summary,
         progress: &mut Progress<'_>,
+        reached: &mut dyn FnMut(&Self),
     ) -> Result<(), RunError> {
         if at.is_empty() {
             at.clone_from(&self.dwells);
@@ -178,6 +195,7 @@ impl Model {
             }
             let report = solver.advance(&mut self.system, *time)?;
             summary.steady.push((*time, report));
+            reached(self);
             for watcher in &mut self.watchers {
                 watcher.call(&self.system)?;
             }

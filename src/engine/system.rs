@@ -487,6 +487,13 @@ impl System {
             inputs: &self.inputs,
         };
         let culprit = self.groups.iter_mut().find_map(|g| g.culprit(&middle));
+        let culprit = culprit.or_else(|| {
+            let spoils = |joint: &&Connection| {
+                let loads = joint.applied(&self.groups, &middle);
+                !loads.iter().all(|l| finite(l.force) && finite(l.torque))
+            };
+            self.joints.iter().find(spoils).map(|j| j.name.clone())
+        });
         BlowUp {
             time: self.time,
             step: self.steps,

@@ -1,9 +1,7 @@
 //! From a scenario's text to a model: bodies built, plugins read, names resolved, every problem reported at once.
 
 use super::{Applied, Marker, Scenario, Solver, Targets, targets::name_and_place};
-use crate::hooks::{
-    Actuation, BoundaryCondition, Callback, Damping, Forcing, Joint, RodLaw,
-};
+use crate::hooks::{Actuation, BoundaryCondition, Callback, Damping, Forcing, Joint, RodLaw};
 use crate::inputs::Inputs;
 use crate::rotation;
 use crate::site::Place;
@@ -101,7 +99,10 @@ fn pose_along(body: &Body<'_>, along: f64) -> (Vector3<f64>, Matrix3<f64>) {
         return (point, frame);
     }
     let turn = rotation::between(&frame, &body.director(element + 1));
-    (point, rotation::turned(&frame, &(turn * (middles - element as f64))))
+    (
+        point,
+        rotation::turned(&frame, &(turn * (middles - element as f64))),
+    )
 }
 
 struct Builder<'a> {
@@ -131,7 +132,10 @@ impl Builder<'_> {
 
     fn bodies(&mut self, scenario: &Scenario<'_>) {
         if scenario.rods.is_empty() && scenario.cylinders.is_empty() {
-            self.refuse("rods", "the scenario has no bodies; give `rods` or `cylinders`".into());
+            self.refuse(
+                "rods",
+                "the scenario has no bodies; give `rods` or `cylinders`".into(),
+            );
         }
         for (i, group) in scenario.rods.iter().enumerate() {
             match group.rods() {
@@ -215,7 +219,10 @@ impl Builder<'_> {
                 continue;
             };
             let [second] = second.as_slice() else {
-                let e = format!("`{}` is a group; only the first side may be one", entry.between.1);
+                let e = format!(
+                    "`{}` is a group; only the first side may be one",
+                    entry.between.1
+                );
                 self.refuse(&path, e);
                 continue;
             };
@@ -248,7 +255,10 @@ impl Builder<'_> {
                 && node >= body.nodes()
             {
                 let (name, nodes) = (body.name().to_owned(), body.nodes());
-                self.refuse(path, format!("`{name}` has nodes 0 to {}, not {node}", nodes - 1));
+                self.refuse(
+                    path,
+                    format!("`{name}` has nodes 0 to {}, not {node}", nodes - 1),
+                );
                 return None;
             }
         }
@@ -310,8 +320,16 @@ impl Builder<'_> {
     fn unknown(&self, name: &str) -> String {
         let bodies = self.system.ids().iter().map(|id| self.system.body(*id));
         let bodies: Vec<_> = bodies.map(|b| b.name().to_owned()).collect();
-        let known: Vec<_> = self.groups.keys().chain(&bodies).map(|n| format!("`{n}`")).collect();
-        format!("there is no body named `{name}`; there are {}", known.join(", "))
+        let known: Vec<_> = self
+            .groups
+            .keys()
+            .chain(&bodies)
+            .map(|n| format!("`{n}`"))
+            .collect();
+        format!(
+            "there is no body named `{name}`; there are {}",
+            known.join(", ")
+        )
     }
 
     fn is_new(&mut self, name: &str, path: &str) -> bool {

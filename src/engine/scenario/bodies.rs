@@ -107,8 +107,7 @@ impl Material {
                 bending,
                 twist,
             } => {
-                let (shear_stretch, mut bend_twist) =
-                    section.rigidities(youngs.at(e), shear.at(e));
+                let (shear_stretch, mut bend_twist) = section.rigidities(youngs.at(e), shear.at(e));
                 if let Some(bending) = bending {
                     (bend_twist.x, bend_twist.y) = (bending.at(e), bending.at(e));
                 }
@@ -210,7 +209,10 @@ impl RodGroup {
         };
         let normal = wanted - direction * wanted.dot(&direction);
         if normal.norm() < 1e-6 {
-            return Err(("normal", "the normal lies along the rod; give another".into()));
+            return Err((
+                "normal",
+                "the normal lies along the rod; give another".into(),
+            ));
         }
         let sections: Vec<_> = (0..n)
             .map(|e| Section {
@@ -262,8 +264,9 @@ impl CylinderSpec {
             _ => return Err(("name", "give either `density` or `mass`".into())),
         };
         let axis = Unit::new_normalize(Vector3::from(*self.axis));
-        let turn = Rotation3::rotation_between(&Vector3::z(), &axis)
-            .unwrap_or_else(|| Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI));
+        let turn = Rotation3::rotation_between(&Vector3::z(), &axis).unwrap_or_else(|| {
+            Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        });
         Ok(Cylinder {
             name: self.name.clone(),
             centre: Vector3::from(*self.centre),

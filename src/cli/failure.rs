@@ -1,0 +1,75 @@
+//! Failures and exit codes: 1 the work failed, 2 the input is wrong, 130 stopped by the user.
+
+use crate::compare::CompareError;
+use crate::config::Problems;
+use crate::engine::RunError;
+use std::io::IsTerminal;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+/// Why a command failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A scenario is wrong.
+    #[error("{0}")]
+    Scenario(Problems),
+    /// A run failed.
+    #[error(transparent)]
+    Run(RunError),
+    /// A recording, or its comparison, failed.
+    #[error(transparent)]
+    Compare(CompareError),
+    /// A file can't be written.
+    #[error(
+        "can't write {path}: {source}; check that the folder exists, has room and may be written to"
+    )]
+    Output {
+        /// The file.
+        path: PathBuf,
+        /// The cause.
+        source: std::io::Error,
+    },
+    /// What was asked for doesn't exist.
+    #[error("{0}")]
+    Unknown(String),
+}
+
+impl From<Problems> for Failure {
+    fn from(problems: Problems) -> Self {
+        Self::Scenario(problems)
+    }
+}
+
+impl From<RunError> for Failure {
+    fn from(e: RunError) -> Self {
+        Self::Run(e)
+    }
+}
+
+impl From<CompareError> for Failure {
+    fn from(e: CompareError) -> Self {
+        match e {
+            CompareError::Scenario(problems) => Self::Scenario(problems),
+            CompareError::Run(e) => Self::Run(e),
+            other => Self::Compare(other),
+        }
+    }
+}
+
+impl Failure {
+    /// Tells the failure on stderr and gives the exit code.
+    pub fn report(&self) -> ExitCode {
+        match self {
+            Self::Scenario(problems) => {
+                eprintln!("{}", problems.render(std::io::stderr().is_terminal()));
+            }
+            other => eprintln!("error: {other}"),
+        }
+        ExitCode::from(match self {
+            Self::Scenario(_) | Self::Compare(_) | Self::Unknown(_) => 2,
+            Self::Run(RunError::Unstable { .. }) => 2,
+            Self::Run(RunError::Interrupted { .. }) => 130,
+            Self::Run(_) | Self::Output { .. } => 1,
+        })
+    }
+}

@@ -1,0 +1,85 @@
+//! A recording made by Auxetica itself, for when no real one is at hand.
+
+use super::{CompareError, simulated};
+use crate::config::Source;
+use crate::engine::{Inputs, Model, RunError, Series, SteadyOptions, SteadySolver};
+use crate::recordings::{Mocap, Pose, RADIANS_PER_TICK, Recording, RobotGeometry, Track, to_world};
+use nalgebra::{Rotation3, UnitQuaternion};
+use std::path::Path;
+
+/// Set-points of the elongation, each held.
+const SETPOINTS: usize = 20;
+/// Rows on the way to a set-point, and rows at rest there.
+const ROWS: (usize, usize) = (3, 12);
+/// Time between rows \[s\], as in the real recordings.
+const ROW_TIME: f64 = 0.108;
+/// Goal velocity while moving, in the motors' unit.
+const MOVING: f64 = 20.0;
+
+/// Writes to `folder` (which must not exist) the recording of a robot of the scenario's kind that elongates from rest
+/// to a half turn of all motors: steady states, without noise.
+pub fn make_recording(source: &Source, folder: &Path) -> Result<(), CompareError> {
+    let per_setpoint = ROWS.0 + ROWS.1;
+    let rows = SETPOINTS * per_setpoint;
+    let most = std::f64::consts::PI / RADIANS_PER_TICK;
+    let ticks_at = |row: usize| {
+        let (setpoint, within) = (row / per_setpoint, row % per_setpoint);
+        let share = ((within + 1) as f64 / (ROWS.0 + 1) as f64).min(1.0);
+        let from = setpoint.saturating_sub(1) as f64;
+        (most * (from + share * (setpoint as f64 - from)) / (SETPOINTS - 1) as f64).round()
+    };
+    let signs = [1.0, -1.0, 1.0, -1.0];
+    let time: Vec<f64> = (0..rows).map(|row| 1.0 + row as f64 * ROW_TIME).collect();
+    let present: Vec<[f64; 4]> = (0..rows)
+        .map(|row| signs.map(|s| s * ticks_at(row)))
+        .collect();
+    let channel = |i: usize| {
+        let values = present.iter().map(|p| p[i] * RADIANS_PER_TICK).collect();
+        let series = Series::new(time.clone(), values).map_err(CompareError::Unfit)?;
+        Ok((format!("motor_{}", i + 1), series))
+    };
+    let channels: Result<Vec<_>, CompareError> = (0..4).map(channel).collect();
+
+    let mut model = Model::build(source, Some(Inputs::new(channels?)))?;
+    let markers = simulated::markers(&model)?;
+    model.system.set_time(time[0]);
+    let mut solver =
+        SteadySolver::new(&mut model.system, SteadyOptions::default()).map_err(RunError::from)?;
+    let (mut platform, mut ring) = (Vec::new(), Vec::new());
+    for time in &time {
+        solver
+            .advance(&mut model.system, *time)
+            .map_err(RunError::from)?;
+        for (poses, marker) in [(&mut platform, &markers[0]), (&mut ring, &markers[1])] {
+            poses.push(to_world(&simulated::pose(&model, marker, None)));
+        }
+    }
+    let base = Pose::from_parts(
+        nalgebra::Translation3::new(0.0, 0.0, RobotGeometry::default().base_markers),
+        UnitQuaternion::from_rotation_matrix(&Rotation3::identity()),
+    );
+    let recording = Recording {
+        name: "made by Auxetica".into(),
+        goal: (0..rows)
+            .map(|row| present[row - row % per_setpoint + per_setpoint - 1])
+            .collect(),
+        velocities: (0..rows)
+            .map(|row| {
+                [if row >= per_setpoint && row % per_setpoint < ROWS.0 {
+                    MOVING
+                } else {
+                    0.0
+                }; 4]
+            })
+            .collect(),
+        loads: vec![[0.0; 4]; rows],
+        mocap: Some(Mocap {
+            base: Track::new(std::iter::repeat_n(to_world(&base), rows)),
+            platform: Track::new(platform),
+            ring: Track::new(ring),
+        }),
+        time,
+        present,
+    };
+    Ok(recording.write(folder)?)
+}

@@ -1,0 +1,127 @@
+//! What a recording shows: motor angles, and poses to hold a simulation against.
+
+use super::{CompareError, Mode};
+use crate::engine::{Inputs, Series};
+use crate::recordings::{
+    BasePoses, MotorAngles, Pose, PublishedTable, Recording, Reference, RobotGeometry, SettleRule,
+    SteadySamples, authors_samples,
+};
+use std::path::Path;
+
+/// Which steady samples are taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum SampleKind {
+    /// The settled rows at the end of each dwell.
+    #[default]
+    Settled,
+    /// Exactly the samples that the data set's authors took, their row pairing included.
+    Authors,
+}
+
+/// Motor angles and the poses of platform and ring, one entry a sample. Positions are of marker points in the base
+/// frame, rotations from rest.
+pub struct Observed {
+    /// Name of the recording.
+    pub name: String,
+    /// Where the poses come from, in words.
+    pub origin: &'static str,
+    /// Time \[s\].
+    pub time: Vec<f64>,
+    /// Poses of `platform` and of `ring`.
+    pub poses: [Vec<Pose>; 2],
+    /// Rest pose of both, orientation of the markers included.
+    pub reference: Reference,
+    /// Angles over time: of the samples if steady, of every row if dynamic.
+    angles: (Vec<f64>, Vec<[f64; 4]>),
+    /// Dwells without a sample.
+    pub skipped: usize,
+}
+
+/// The published table of steady poses beside a recording.
+const TABLE: &str = "inverse_kinematics_results_spcs_n_S-2.npz";
+
+impl Observed {
+    /// Reads the recording in `folder`.
+    pub fn read(folder: &Path, mode: Mode, kind: SampleKind) -> Result<Self, CompareError> {
+        let recording = Recording::read(folder)?;
+        let geometry = RobotGeometry::default();
+        match mode {
+            Mode::Dynamic => Self::every_row(&recording, &geometry),
+            Mode::Steady if recording.mocap.is_none() => {
+                let table = PublishedTable::read(folder.join(TABLE)).map_err(|table| {
+                    CompareError::Unfit(format!(
+                        "recording `{}` has no motion capture (mocap_frame_data_history.csv), and its published \
+                         steady poses can't be read either: {table}",
+                        recording.name
+                    ))
+                })?;
+                let samples = table.samples(&recording, &geometry)?;
+                Ok(Self::steady(
+                    &recording,
+                    samples,
+                    "published table of steady poses",
+                ))
+            }
+            Mode::Steady => {
+                let samples = match kind {
+                    SampleKind::Settled => SettleRule::default().samples(&recording, &geometry)?,
+                    SampleKind::Authors => authors_samples(&recording, &geometry)?,
+                };
+                Ok(Self::steady(&recording, samples, "motion capture"))
+            }
+        }
+    }
+
+    fn steady(recording: &Recording, samples: SteadySamples, origin: &'static str) -> Self {
+        Self {
+            name: recording.name.clone(),
+            origin,
+            angles: (samples.time.clone(), samples.angles),
+            time: samples.time,
+            poses: [samples.platform, samples.ring],
+            reference: samples.reference,
+            skipped: samples.skipped,
+        }
+    }
+
+    fn every_row(recording: &Recording, geometry: &RobotGeometry) -> Result<Self, CompareError> {
+        let poses = BasePoses::new(recording, geometry)?;
+        let reference = Reference::new(recording, &poses)?;
+        let BasePoses { platform, ring, .. } = poses.from_rest(&reference);
+        let motors = MotorAngles::new(recording);
+        let rows = motors.first_row..motors.first_row + motors.time.len();
+        Ok(Self {
+            name: recording.name.clone(),
+            origin: "motion capture",
+            time: motors.time.clone(),
+            poses: [platform[rows.clone()].to_vec(), ring[rows].to_vec()],
+            reference,
+            angles: (motors.time, motors.present),
+            skipped: 0,
+        })
+    }
+
+    /// Drops everything after `until` \[s\].
+    pub fn end_at(&mut self, until: f64) {
+        let kept = self.time.partition_point(|t| *t <= until);
+        self.time.truncate(kept);
+        for poses in &mut self.poses {
+            poses.truncate(kept);
+        }
+    }
+
+    /// The motor angles \[rad\] as a scenario's inputs `motor_1` to `motor_4`.
+    pub fn inputs(&self) -> Result<Inputs, CompareError> {
+        let (times, angles) = &self.angles;
+        let channel = |i: usize| {
+            let values = angles.iter().map(|a| a[i]).collect();
+            let series = Series::new(times.clone(), values).map_err(|e| {
+                CompareError::Unfit(format!("motor angles of recording `{}`: {e}", self.name))
+            })?;
+            Ok((format!("motor_{}", i + 1), series))
+        };
+        let channels: Result<Vec<_>, CompareError> = (0..4).map(channel).collect();
+        Ok(Inputs::new(channels?))
+    }
+}

@@ -1,0 +1,156 @@
+//! What a scenario shows under recorded motor angles.
+
+use super::{CompareError, Observed};
+use crate::config::Source;
+use crate::engine::run::Progress;
+use crate::engine::scenario::{LARGEST_SHARE, Marker, Solver};
+use crate::engine::{Model, RunError, SteadyOptions, SteadySolver, stability};
+use crate::recordings::{MarkerFrame, OffsetZ, Pose};
+use nalgebra::{Rotation3, UnitQuaternion};
+
+/// How the scenario is driven.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Mode {
+    /// A steady state at each sample.
+    Steady,
+    /// Through time, explicitly.
+    Dynamic,
+}
+
+/// Names of the markers that recordings know.
+pub const BODIES: [&str; 2] = ["platform", "ring"];
+/// Samples that take longer than this many are worth a progress report each.
+const REPORTS: usize = 200;
+
+/// Poses of the scenario's markers, as motion capture would show them; nothing where no state was found.
+pub struct Simulated {
+    /// Poses of `platform` and of `ring`, one entry a sample.
+    pub poses: [Vec<Option<Pose>>; 2],
+    /// Samples without a steady state, and why.
+    pub unsolved: Vec<(usize, String)>,
+}
+
+impl Simulated {
+    /// Runs the scenario under the recorded angles.
+    pub fn run(
+        source: &Source,
+        observed: &Observed,
+        mode: Mode,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, CompareError> {
+        let mut model = Model::build(source, Some(observed.inputs()?))?;
+        let Some(&first) = observed.time.first() else {
+            return Err(CompareError::Unfit(format!(
+                "recording `{}` has no sample to compare",
+                observed.name
+            )));
+        };
+        let markers = markers(&model)?;
+        model.system.set_time(first);
+        let tolerance = match model.solver {
+            Solver::Steady { tolerance, .. } => *tolerance,
+            Solver::Dynamic { .. } => SteadyOptions::default().tolerance,
+        };
+        let options = SteadyOptions {
+            tolerance,
+            ..SteadyOptions::default()
+        };
+        let mut solver = SteadySolver::new(&mut model.system, options).map_err(RunError::from)?;
+        // Both sides are referred to rest under the first angles.
+        solver
+            .advance(&mut model.system, first)
+            .map_err(RunError::from)?;
+        let rest = [0, 1].map(|b| pose(&model, &markers[b], None));
+        let recorded = [&observed.reference.platform, &observed.reference.ring];
+        let frames = [0, 1].map(|b| {
+            MarkerFrame::new(recorded[b], &rest[b].translation.vector, OffsetZ::Reference)
+        });
+        let mut simulated = Self {
+            poses: [Vec::new(), Vec::new()],
+            unsolved: Vec::new(),
+        };
+        let dt = match mode {
+            Mode::Steady => 0.0,
+            Mode::Dynamic => time_step(&mut model)?,
+        };
+        for (i, time) in observed.time.iter().enumerate() {
+            if i % observed.time.len().div_ceil(REPORTS) == 0
+                && progress(i as f64 / observed.time.len() as f64).is_break()
+            {
+                let time = model.system.time();
+                return Err(RunError::Interrupted { time }.into());
+            }
+            let solved = match mode {
+                Mode::Steady => solver.advance(&mut model.system, *time).map(drop),
+                Mode::Dynamic => {
+                    through(&mut model, *time, dt)?;
+                    Ok(())
+                }
+            };
+            if let Err(e) = &solved {
+                simulated.unsolved.push((i, e.to_string()));
+            }
+            for b in [0, 1] {
+                let shown = solved
+                    .is_ok()
+                    .then(|| frames[b].marker_pose(&pose(&model, &markers[b], Some(&rest[b]))));
+                simulated.poses[b].push(shown);
+            }
+        }
+        Ok(simulated)
+    }
+}
+
+pub(super) fn markers(model: &Model) -> Result<[Marker; 2], CompareError> {
+    let find = |name: &str| {
+        let marker = model.markers.iter().find(|m| m.name == name).cloned();
+        marker.ok_or_else(|| {
+            CompareError::Unfit(format!(
+                "the scenario has no marker `{name}`; add one under `markers`, such as \
+                 (name: \"{name}\", on: \"a body\")"
+            ))
+        })
+    };
+    Ok([find(BODIES[0])?, find(BODIES[1])?])
+}
+
+/// A marker's pose; its rotation is from `rest` if given, else from the world's axes.
+pub(super) fn pose(model: &Model, marker: &Marker, rest: Option<&Pose>) -> Pose {
+    let (point, frame) = model
+        .marker_pose(marker)
+        .expect("the model was built with the marker's body");
+    // rows of a frame are directors, so its transpose rotates the world's axes onto them
+    let rotation = Rotation3::from_matrix_unchecked(frame.transpose());
+    let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+    let from = rest.map_or(UnitQuaternion::identity(), |rest| rest.rotation);
+    Pose::from_parts(point.into(), rotation * from.inverse())
+}
+
+/// The scenario's own time step, or one that is stable.
+fn time_step(model: &mut Model) -> Result<f64, CompareError> {
+    let given = match model.solver {
+        Solver::Dynamic { dt, .. } => dt.map(|dt| *dt),
+        Solver::Steady { .. } => None,
+    };
+    let guess = given.unwrap_or_else(|| stability::wave_time(&model.system));
+    let limit = stability::limit(&mut model.system, guess);
+    let dt = given.unwrap_or(LARGEST_SHARE * limit);
+    if dt > limit {
+        return Err(RunError::Unstable { dt, limit }.into());
+    }
+    Ok(dt)
+}
+
+/// Steps the model to `time`.
+fn through(model: &mut Model, time: f64, dt: f64) -> Result<(), RunError> {
+    let span = time - model.system.time();
+    let steps = (span / dt).ceil().max(0.0);
+    for _ in 0..steps as u64 {
+        model.system.step(span / steps).map_err(|blow_up| {
+            let (blow_up, limit) = (Box::new(blow_up), dt / LARGEST_SHARE);
+            RunError::BlowUp { blow_up, limit, dt }
+        })?;
+    }
+    Ok(())
+}
