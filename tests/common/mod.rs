@@ -1,6 +1,9 @@
 //! What several tests share.
 #![allow(dead_code, reason = "each test uses some of it")]
 
+use auxetica::config::Source;
+use auxetica::engine::{Model, ReadBody, SteadyOptions, SteadySolver};
+use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
 
 /// A file or folder of the reference data, which lie in `AUXETICA_DATA` (by default `../shared`). Without them a test
@@ -21,4 +24,34 @@ pub fn data(relative: &str) -> Option<PathBuf> {
     assert!(std::env::var_os("CI").is_none(), "{notice}");
     eprintln!("not compared: {notice}");
     None
+}
+
+/// The model of a scenario text.
+pub fn model(text: &str) -> Model {
+    Source::from_text("test", text, &[])
+        .and_then(|source| Model::build(&source, None))
+        .unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// Moves the model to its steady state at `time` \[s\].
+pub fn steady(model: &mut Model, time: f64) {
+    SteadySolver::new(&mut model.system, SteadyOptions::default())
+        .and_then(|mut solver| solver.advance(&mut model.system, time))
+        .unwrap_or_else(|e| panic!("{}: {e}", model.title));
+}
+
+/// Positions of a body's nodes.
+pub fn nodes(model: &Model, body: &str) -> Vec<Vector3<f64>> {
+    let body = model.system.body(
+        model
+            .system
+            .find(body)
+            .expect("the body is in the scenario"),
+    );
+    (0..body.nodes()).map(|i| body.position(i)).collect()
+}
+
+/// Position of a body's last node.
+pub fn tip(model: &Model, body: &str) -> Vector3<f64> {
+    *nodes(model, body).last().expect("a body has nodes")
 }
