@@ -1,0 +1,49 @@
+//! Every shipped scenario loads, builds and solves its first steady state, or 50 steps of a dynamic run.
+
+mod common;
+
+use auxetica::config::Source;
+use auxetica::engine::scenario::Solver;
+use auxetica::engine::{Model, stability};
+use std::path::Path;
+
+const STEPS: usize = 50;
+
+fn solve(file: &Path) -> Result<(), String> {
+    let source = Source::load(file, &[]).map_err(|e| e.to_string())?;
+    let mut model = Model::build(&source, None).map_err(|e| e.to_string())?;
+    match model.solver.clone() {
+        Solver::Steady { at, .. } => {
+            let first = at.first().map(|t| **t).or(model.dwells.first().copied());
+            common::steady(&mut model, first.unwrap_or(0.0));
+        }
+        Solver::Dynamic { dt, .. } => {
+            let system = &mut model.system;
+            system.apply_boundaries();
+            let guess = stability::wave_time(system);
+            let dt = dt.map_or_else(|| 0.9 * stability::limit(system, guess), |dt| *dt);
+            for _ in 0..STEPS {
+                system.step(dt).map_err(|e| e.to_string())?;
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn every_scenario_solves() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios");
+    let entries = std::fs::read_dir(folder).expect("the scenarios are there");
+    let mut files: Vec<_> = entries.map(|entry| entry.expect("a file").path()).collect();
+    files.retain(|file| file.extension().is_some_and(|e| e == "ron"));
+    files.sort();
+    assert!(files.len() >= 8, "only {} scenarios", files.len());
+    let problems: Vec<String> = files
+        .iter()
+        .filter_map(|file| {
+            let problem = solve(file).err()?;
+            Some(format!("{}: {problem}", file.display()))
+        })
+        .collect();
+    assert!(problems.is_empty(), "{}", problems.join("\n"));
+}
