@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 pub struct Csv {
     /// File name, in the folder of results unless absolute.
     file: PathBuf,
-    /// What to record.
+    /// What to record; position and director unless named.
     #[serde(default)]
     quantities: Quantities,
     #[serde(skip)]

@@ -13,7 +13,7 @@ use std::fs::File;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
-/// Writes an NPZ archive of float64 arrays: `time` [s] of shape (T), and `<body>.<quantity>` for every body and
+/// Writes an NPZ archive of float64 arrays: `time` in s of shape (T), and `<body>.<quantity>` for every body and
 /// quantity, as `rod_1.position` of shape (T, nodes, 3). The second axis counts nodes, elements or frames; that of a
 /// cell quantity has one place a node, NaN where no cell is (the ends, unless a wall holds them). Vectors add an axis
 /// of 3, frames (3, 3) with the directors as rows. Rigid bodies have no element and cell quantities. All is kept in
@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 pub struct Npz {
     /// File name, in the folder of results unless absolute.
     file: PathBuf,
-    /// What to record.
+    /// What to record; position and director unless named.
     #[serde(default)]
     quantities: Quantities,
     #[serde(skip)]

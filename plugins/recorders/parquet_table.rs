@@ -28,7 +28,7 @@ const GROUP: usize = 1 << 16;
 pub struct Parquet {
     /// File name, in the folder of results unless absolute.
     file: PathBuf,
-    /// What to record.
+    /// What to record; position and director unless named.
     #[serde(default)]
     quantities: Quantities,
     #[serde(skip)]

@@ -8,51 +8,51 @@ use std::ops::Deref;
 /// World components are along `x, y, z`, material ones along the directors `d1, d2, d3`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
 pub enum Quantity {
-    /// Position of nodes, world frame [m].
+    /// Position of nodes, world frame, in m.
     Position,
-    /// Velocity of nodes, world frame [m/s].
+    /// Velocity of nodes, world frame, in m/s.
     Velocity,
-    /// Frames: directors d1, d2, d3 (the rows) in the world frame [-].
+    /// Frames: directors d1, d2, d3 (the rows) in the world frame.
     Director,
-    /// Angular velocity of frames, material frame [rad/s].
+    /// Angular velocity of frames, material frame, in rad/s.
     Omega,
-    /// Mass of nodes, rigid ends included [kg].
+    /// Mass of nodes, rigid ends included, in kg.
     Mass,
-    /// Moments of inertia of frames about the directors, rigid ends included [kg m2].
+    /// Moments of inertia of frames about the directors, rigid ends included, in kg m2.
     Inertia,
-    /// Present length of elements [m].
+    /// Present length of elements, in m.
     Length,
-    /// Length of elements as built [m].
+    /// Length of elements as built, in m.
     ReferenceLength,
-    /// Rest length of elements: as built unless a rod law sets it [m].
+    /// Rest length of elements: as built unless a rod law sets it, in m.
     RestLength,
-    /// Dilatation of elements: present over rest length [-].
+    /// Dilatation of elements: present over rest length.
     Dilatation,
-    /// Unit tangent of elements, world frame [-].
+    /// Unit tangent of elements, world frame.
     Tangent,
-    /// Shear and stretch strains of elements, material frame [-].
+    /// Shear and stretch strains of elements, material frame.
     Sigma,
-    /// Internal force of elements, material frame [N].
+    /// Internal force of elements, material frame, in N.
     Stress,
-    /// Curvatures and twist of cells, material frame [rad/m].
+    /// Curvatures and twist of cells, material frame, in rad/m.
     Kappa,
-    /// Rotation vector across cells, material frame [rad].
+    /// Rotation vector across cells, material frame, in rad.
     Rotation,
-    /// Twist of cells, referred to their twist length [rad/m].
+    /// Twist of cells, referred to their twist length, in rad/m.
     Twist,
-    /// Internal couple of cells, material frame [N m].
+    /// Internal couple of cells, material frame, in N m.
     Couple,
-    /// Rest length of cells [m].
+    /// Rest length of cells, in m.
     RestVoronoi,
-    /// Length that the twist of cells is referred to [m].
+    /// Length that the twist of cells is referred to, in m.
     TwistLength,
-    /// Shear, shear and axial rigidities of elements as built [N].
+    /// Shear, shear and axial rigidities of elements as built, in N.
     BuiltShearStretch,
-    /// Bending, bending and twist rigidities of cells as built [N m2].
+    /// Bending, bending and twist rigidities of cells as built, in N m2.
     BuiltBendTwist,
-    /// Total force on nodes, world frame [N].
+    /// Total force on nodes, world frame, in N.
     Force,
-    /// Total torque on frames, material frame [N m].
+    /// Total torque on frames, material frame, in N m.
     Torque,
 }
 
