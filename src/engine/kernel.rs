@@ -129,13 +129,20 @@ impl Bodies {
             for k in layout.first..layout.first + layout.directors() {
                 let inertia = self.inertia.get(k);
                 let omega = self.state.omega.get(k);
-                let e = self.dilatation[k];
-                let momentum = inertia.component_mul(&omega) / e;
-                let mut torque = self.torque.get(k) + momentum.cross(&omega);
-                if layout.is_rod() {
-                    torque += momentum * (self.stretch_rate[k] / e);
-                }
-                let change = torque.component_div(&inertia) * (e * dt);
+                let (e, torque) = (self.dilatation[k], self.torque.get(k));
+                let stretching = if layout.is_rod() {
+                    self.stretch_rate[k] / e
+                } else {
+                    0.0
+                };
+                let rate = |omega: Vector3<f64>| {
+                    let momentum = inertia.component_mul(&omega) / e;
+                    let torque = torque + momentum.cross(&omega) + momentum * stretching;
+                    torque.component_div(&inertia) * e
+                };
+                // These torques depend on the rate itself: taken at the middle of the step, or a tumbling body would
+                // converge at first order only.
+                let change = rate(omega + rate(omega) * (dt / 2.0)) * dt;
                 self.state.omega.add(k, change);
             }
         }
