@@ -46,7 +46,7 @@ fn a_cantilever_bends_as_the_discrete_beam() {
             let error = (deflection(elements, cell) / exact - 1.0).abs();
             println!("{elements} elements, {cell}: {error:.1e}");
             assert!(
-                error < 1e-6,
+                error < 1e-8,
                 "{elements} elements, {cell}: off by {error:.1e}"
             );
         }
