@@ -59,7 +59,12 @@ impl ScenarioArgs {
 
 /// Runs the command line of this process: the whole `main` of a program with plugins of its own.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    main_with(std::env::args_os())
+}
+
+/// Runs a command line given as arguments, the program's name first.
+pub fn main_with(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> ExitCode {
+    let cli = Cli::parse_from(arguments);
     let quiet = cli.quiet;
     let done = match &cli.command {
         None => default_job::run(quiet),

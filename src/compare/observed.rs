@@ -30,9 +30,11 @@ pub struct Observed {
     pub time: Vec<f64>,
     /// Poses of `platform` and of `ring`.
     pub poses: [Vec<Pose>; 2],
+    /// Time \[s\] of rest, all angles zero.
+    pub rest: f64,
     /// Rest pose of both, orientation of the markers included.
     pub reference: Reference,
-    /// Angles over time: of the samples if steady, of every row if dynamic.
+    /// Angles over time from rest on: of the samples if steady, of every row if dynamic.
     angles: (Vec<f64>, Vec<[f64; 4]>),
     /// Dwells without a sample.
     pub skipped: usize,
@@ -74,10 +76,18 @@ impl Observed {
     }
 
     fn steady(recording: &Recording, samples: SteadySamples, origin: &'static str) -> Self {
+        let mut angles = (samples.time.clone(), samples.angles);
+        // The poses at rest belong to the first row, before the first sample.
+        let rest = recording.time[recording.first_row()];
+        if samples.time.first().is_some_and(|first| *first > rest) {
+            angles.0.insert(0, rest);
+            angles.1.insert(0, [0.0; 4]);
+        }
         Self {
             name: recording.name.clone(),
             origin,
-            angles: (samples.time.clone(), samples.angles),
+            rest,
+            angles,
             time: samples.time,
             poses: [samples.platform, samples.ring],
             reference: samples.reference,
@@ -97,6 +107,7 @@ impl Observed {
             time: motors.time.clone(),
             poses: [platform[rows.clone()].to_vec(), ring[rows].to_vec()],
             reference,
+            rest: motors.time[0],
             angles: (motors.time, motors.present),
             skipped: 0,
         })

@@ -40,14 +40,14 @@ impl Simulated {
         progress: &mut Progress<'_>,
     ) -> Result<Self, CompareError> {
         let mut model = Model::build(source, Some(observed.inputs()?))?;
-        let Some(&first) = observed.time.first() else {
+        if observed.time.is_empty() {
             return Err(CompareError::Unfit(format!(
                 "recording `{}` has no sample to compare",
                 observed.name
             )));
-        };
+        }
         let markers = markers(&model)?;
-        model.system.set_time(first);
+        model.system.set_time(observed.rest);
         let tolerance = match model.solver {
             Solver::Steady { tolerance, .. } => *tolerance,
             Solver::Dynamic { .. } => SteadyOptions::default().tolerance,
@@ -57,9 +57,9 @@ impl Simulated {
             ..SteadyOptions::default()
         };
         let mut solver = SteadySolver::new(&mut model.system, options).map_err(RunError::from)?;
-        // Both sides are referred to rest under the first angles.
+        // Both sides are referred to rest.
         solver
-            .advance(&mut model.system, first)
+            .advance(&mut model.system, observed.rest)
             .map_err(RunError::from)?;
         let rest = [0, 1].map(|b| pose(&model, &markers[b], None));
         let recorded = [&observed.reference.platform, &observed.reference.ring];

@@ -143,14 +143,18 @@ impl Model {
         let steps = (duration / wanted).ceil().max(1.0);
         let dt = duration / steps;
         (summary.dt, summary.stability_limit) = (dt, limit);
-        system.evaluate();
         let start = system.time();
         let mut next: Vec<f64> = vec![start; self.watchers.len()];
         for step in 0..=steps as u64 {
-            for (watcher, next) in self.watchers.iter_mut().zip(&mut next) {
-                if system.time() >= *next - dt / 2.0 {
-                    watcher.call(system)?;
-                    *next += watcher.every;
+            let due = |next: &f64| system.time() >= *next - dt / 2.0;
+            if next.iter().any(due) {
+                // strains and loads of the step are those of its middle; show those of now
+                system.evaluate();
+                for (watcher, next) in self.watchers.iter_mut().zip(&mut next) {
+                    if system.time() >= *next - dt / 2.0 {
+                        watcher.call(system)?;
+                        *next += watcher.every;
+                    }
                 }
             }
             if step % STEPS_PER_REPORT == 0 && progress(step as f64 / steps).is_break() {

@@ -57,8 +57,17 @@ pub struct NotSteady {
 
 /// Largest rotation \[rad\] of boundary values in one increment of time.
 const LARGEST_TURN: f64 = 1.0;
-/// Largest Newton correction, in radians and element lengths.
+/// Largest Newton correction of one station against its neighbour, in radians and element lengths.
 const LARGEST_CORRECTION: f64 = 0.5;
+/// Factor by which each correction must at least shrink.
+const CONTRACTION: f64 = 0.5;
+/// Corrections below this stay on the branch, whatever their ratio: a law's kink may cost one that doesn't shrink.
+const HARMLESS: f64 = 0.02;
+
+/// Newton iterations up to which the next increment may be twice as large.
+const EASY: usize = 5;
+/// Share of an increment by which the path's tangent is found.
+const DIFFERENCE: f64 = 1e-4;
 
 /// Finds and follows steady states of one system.
 pub struct SteadySolver {
@@ -70,6 +79,30 @@ pub struct SteadySolver {
 
 /// Positions, frames and walls of all groups.
 type Poses = Vec<(crate::bodies::State, Vec<[Matrix3<f64>; 2]>)>;
+
+/// The way from one equilibrium to the next: what is held moves, and what was out of balance fades.
+struct Path {
+    before: Poses,
+    target: Poses,
+    /// Displacements of held stations.
+    moves: Vec<f64>,
+    imbalance: Vec<f64>,
+}
+
+impl Path {
+    /// Turns walls a share of the way. They are no unknowns, so this is all of their motion.
+    fn turn_walls(&self, system: &mut System, share: f64) {
+        let groups = system.groups.iter_mut();
+        for (group, ((_, from), (_, to))) in groups.zip(self.before.iter().zip(&self.target)) {
+            for (walls, (from, to)) in group.bodies.walls.iter_mut().zip(from.iter().zip(to)) {
+                for end in 0..walls.len() {
+                    let turn = rotation::between(&from[end], &to[end]) * share;
+                    walls[end] = rotation::turned(&from[end], &turn);
+                }
+            }
+        }
+    }
+}
 
 impl SteadySolver {
     /// Prepares for a system; its rates are set to zero.
@@ -124,26 +157,25 @@ impl SteadySolver {
         system.time = time;
         self.set_boundaries(system);
         let target = self.poses(system);
-        // Walls are no unknowns: what they change at once is part of the imbalance that fades.
-        let imbalance = {
-            let mut start = before.clone();
-            for (start, target) in start.iter_mut().zip(&target) {
-                start.1.clone_from(&target.1);
-            }
-            self.set_poses(system, &start);
-            self.imbalance(system)
-        };
+        self.set_poses(system, &before);
+        let imbalance = self.imbalance(system);
         let moves = self.moves(&before, &target);
+        let path = Path {
+            before,
+            target,
+            moves,
+            imbalance,
+        };
         let (mut done, mut increment) = (0.0, 1.0_f64);
         while done < 1.0 {
             let good = self.poses(system);
             let to = (done + increment).min(1.0);
-            match self.newton(system, &moves, to - done, &imbalance, 1.0 - to) {
+            match self.newton(system, &path, done, to) {
                 Ok(iterations) => {
                     report.iterations += iterations;
                     report.increments += 1;
                     done = to;
-                    if iterations <= 6 {
+                    if iterations <= EASY {
                         increment *= 2.0;
                     }
                 }
@@ -160,22 +192,31 @@ impl SteadySolver {
         Ok(())
     }
 
-    /// Newton's method for `P R = fading P R0` after held stations have moved by `share` of `moves`.
+    /// Newton's method from the equilibrium at the share `from` of the path to the one at `to`.
     fn newton(
         &mut self,
         system: &mut System,
-        moves: &[f64],
-        share: f64,
-        imbalance: &[f64],
-        fading: f64,
+        path: &Path,
+        from: f64,
+        to: f64,
     ) -> Result<usize, String> {
-        let mut to_move = share;
+        let mut last = f64::INFINITY;
         for iteration in 1..=self.options.iterations {
-            let loads = self.imbalance(system);
+            // The first step follows the tangent of the path; it takes held stations and walls there.
+            let ahead = if iteration == 1 { to - from } else { 0.0 };
+            let mut loads = self.imbalance(system);
+            if ahead > 0.0 {
+                path.turn_walls(system, from + DIFFERENCE * ahead);
+                for (load, moved) in loads.iter_mut().zip(self.imbalance(system)) {
+                    *load += (moved - *load) / DIFFERENCE;
+                }
+                path.turn_walls(system, from);
+            }
             self.tangent.fill(system, &self.unknowns);
             let factors = self.tangent.factorise(&self.freedom)?;
+            path.turn_walls(system, to);
             let mut change: Vec<f64> = (0..loads.len())
-                .map(|i| to_move * moves[i] + fading * imbalance[i] - loads[i])
+                .map(|i| ahead * path.moves[i] + (1.0 - to) * path.imbalance[i] - loads[i])
                 .collect();
             if !solve(&factors, &mut change) {
                 return Err("the tangent matrix is singular: a body or a joint is free to move; hold it with a \
@@ -183,42 +224,22 @@ impl SteadySolver {
                     .into());
             }
             let largest = change.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-            let cut = self.allowed(&change);
-            if cut < 1.0 {
-                change.iter_mut().for_each(|c| *c *= cut);
-            }
-            self.unknowns.displace_all(&mut system.groups, &change);
-            to_move *= 1.0 - cut;
-            if cut >= 1.0 && largest < self.options.tolerance {
-                return Ok(iteration);
-            }
-            if !largest.is_finite() {
+            // Corrections that don't shrink fast may end on another branch than the one that is followed.
+            if bending(&change) > LARGEST_CORRECTION
+                || (largest > CONTRACTION * last && largest > HARMLESS)
+                || !largest.is_finite()
+            {
                 break;
             }
-        }
-        Err(format!(
-            "Newton's method didn't converge in {} iterations, however small the increment; follow the load from a \
-             smaller one (ramps, closer times), or settle with the dynamic solver",
-            self.options.iterations
-        ))
-    }
-
-    /// Fraction of a correction that may be taken. Neighbours may not move far against each other; a body may.
-    fn allowed(&self, change: &[f64]) -> f64 {
-        let mut largest = 0.0_f64;
-        for station in change.chunks_exact(PER_STATION) {
-            largest = station[3..].iter().fold(largest, |m, v| m.max(v.abs()));
-        }
-        for pair in change
-            .chunks_exact(PER_STATION)
-            .collect::<Vec<_>>()
-            .windows(2)
-        {
-            for i in 0..3 {
-                largest = largest.max((pair[1][i] - pair[0][i]).abs());
+            last = largest;
+            self.unknowns.displace_all(&mut system.groups, &change);
+            if largest < self.options.tolerance {
+                return Ok(iteration);
             }
         }
-        (LARGEST_CORRECTION / largest).min(1.0)
+        Err("Newton's method didn't converge, however small the increment; follow the load from a smaller one \
+             (ramps, closer times), or settle with the dynamic solver"
+            .into())
     }
 
     /// Loads in free directions, as the right-hand side takes them.
@@ -291,4 +312,14 @@ impl SteadySolver {
             group.bodies.walls.clone_from(walls);
         }
     }
+}
+
+/// Largest change of a station against the one before it: bodies may move far as long as they bend little.
+fn bending(change: &[f64]) -> f64 {
+    let neighbours = change
+        .chunks_exact(PER_STATION)
+        .zip(change.chunks_exact(PER_STATION).skip(1));
+    neighbours
+        .flat_map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs()))
+        .fold(0.0, f64::max)
 }
