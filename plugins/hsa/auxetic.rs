@@ -30,7 +30,8 @@ pub enum Averaging {
     /// elements see half of the twist.
     #[default]
     Paper,
-    /// As the authors' code does: rest lengths as `Paper`, but rigidities see half of one neighbour only.
+    /// As the authors' code does: rest lengths as `Paper`, but shear and axial rigidities see half of one neighbour
+    /// only.
     Reference,
     /// The mean of the neighbours that exist: the end elements see all of the twist. Converges at second order.
     Mean,
@@ -150,11 +151,7 @@ impl RodLaw for Auxetic {
         }
         if bending != 0.0 || twist != 0.0 {
             for v in rod.cells() {
-                let share = match self.averaging {
-                    Averaging::Reference => 0.5,
-                    _ => 1.0,
-                };
-                let winding = self.winding(rod, v).max(0.0) * share;
+                let winding = self.winding(rod, v).max(0.0);
                 let change = Vector3::new(bending, bending, twist) * winding;
                 rod.set_bend_twist(v, rod.built_bend_twist(v) + change);
             }
