@@ -57,7 +57,7 @@ impl Damping for LinearDamping {
         let coefficients = self.translational.iter().chain(self.rotational.iter());
         match coefficients.copied().find(|c| *c < 0.0) {
             Some(c) => Err(format!(
-                "damping coefficients can't be negative, one is {c}"
+                "damping coefficients can't be negative, one is {c}; give 0 or more"
             )),
             None => Ok(()),
         }

@@ -3,7 +3,7 @@
 use auxetica_engine::{Finite, LawView, Moment, NonNegative, ReadBody, RodLaw, Setting, register};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// Which way the rod must be twisted to lengthen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -24,7 +24,7 @@ impl Handedness {
 }
 
 /// How the twist of cells is carried over to elements.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum Averaging {
     /// The operator A^h of the paper (Gazzola et al. 2018, eq. 3.1): half of both neighbours, so that the two end
     /// elements see half of the twist.
@@ -38,7 +38,7 @@ pub enum Averaging {
 }
 
 /// Change of rigidities with the winding twist (eq. 5).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Slopes {
     /// Of the shear rigidities [N per rad/m].
@@ -51,8 +51,8 @@ pub struct Slopes {
     pub twist: f64,
 }
 
-fn unlimited() -> NonNegative {
-    NonNegative::new(f64::MAX).expect("the largest number is not negative")
+fn paper_factor() -> NonNegative {
+    NonNegative::new(0.01).expect("the paper's factor is positive")
 }
 
 /// The auxetic law: the rest length of each element follows the twist along the rod's handedness,
@@ -63,14 +63,15 @@ fn unlimited() -> NonNegative {
 pub struct Auxetic {
     /// Which way of twisting lengthens the rod.
     handedness: Handedness,
-    /// Extension factor C_eps [m/rad].
+    /// Extension factor C_eps [m/rad]; by default that of the paper's robot (section II-E).
+    #[serde(default = "paper_factor")]
     factor: NonNegative,
     /// Smallest extension [-]; 0 for closed HSAs, which only lengthen.
     #[serde(default)]
     eps_min: Finite,
-    /// Largest extension [-].
-    #[serde(default = "unlimited")]
-    eps_max: NonNegative,
+    /// Largest extension [-]; unlimited if left out.
+    #[serde(default)]
+    eps_max: Option<NonNegative>,
     /// How twist is averaged from cells to elements.
     #[serde(default)]
     averaging: Averaging,
@@ -129,7 +130,11 @@ impl Auxetic {
     }
 
     fn extension(&self, rod: &LawView<'_>, e: usize) -> f64 {
-        (*self.factor * self.of_element(rod, e)).clamp(*self.eps_min, *self.eps_max)
+        (*self.factor * self.of_element(rod, e)).clamp(*self.eps_min, self.eps_max())
+    }
+
+    fn eps_max(&self) -> f64 {
+        self.eps_max.map_or(f64::INFINITY, |most| *most)
     }
 }
 
@@ -168,7 +173,7 @@ impl RodLaw for Auxetic {
             let mut axial = 0.0;
             for e in neighbours.into_iter().flatten() {
                 let free = *self.factor * self.of_element(rod, e);
-                if (*self.eps_min..*self.eps_max).contains(&free) {
+                if (*self.eps_min..self.eps_max()).contains(&free) {
                     axial += rod.stress(e).z * rod.dilatation(e) / 2.0;
                 }
             }
@@ -177,10 +182,11 @@ impl RodLaw for Auxetic {
     }
 
     fn check(&self, _setting: &Setting<'_>) -> Result<(), String> {
-        if *self.eps_min > *self.eps_max {
+        if *self.eps_min > self.eps_max() {
             return Err(format!(
-                "eps_min {} must not exceed eps_max {}",
-                *self.eps_min, *self.eps_max
+                "eps_min {} exceeds eps_max {}; give a smaller eps_min or a larger eps_max",
+                *self.eps_min,
+                self.eps_max()
             ));
         }
         if *self.eps_min <= -1.0 {
@@ -198,7 +204,7 @@ impl RodLaw for Auxetic {
         if [shear, axial, bending, twist].iter().all(|s| s.is_finite()) {
             Ok(())
         } else {
-            Err("slopes must be finite numbers".into())
+            Err("slopes must be finite numbers; inf and NaN are not allowed".into())
         }
     }
 }

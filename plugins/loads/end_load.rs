@@ -5,10 +5,10 @@ use auxetica_engine::{
 };
 use nalgebra::Vector3;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 /// The frame that a load's components are given in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum Frame {
     /// Fixed in space.
     #[default]

@@ -1,18 +1,39 @@
 //! Files that are written by one recorder at a time.
 
 use auxetica_engine::CallbackError;
+use std::error::Error;
+use std::fmt;
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The error of writing `path`.
+/// The error of writing `path`, with a remedy.
 pub(crate) fn failed(
     path: &Path,
-    source: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+    source: impl Into<Box<dyn Error + Send + Sync>>,
 ) -> CallbackError {
     CallbackError {
         what: format!("writing {}", path.display()),
-        source: source.into(),
+        source: Box::new(Unwritten(source.into())),
+    }
+}
+
+#[derive(Debug)]
+struct Unwritten(Box<dyn Error + Send + Sync>);
+
+impl fmt::Display for Unwritten {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(
+            f,
+            "{}; give another `file`, or see that its folder has room and may be written to",
+            self.0
+        )
+    }
+}
+
+impl Error for Unwritten {
+    fn source(&self) -> Option<&(dyn Error + 'static)> {
+        Some(&*self.0)
     }
 }
 
@@ -23,7 +44,10 @@ pub(crate) fn open(path: &Path) -> Result<File, CallbackError> {
 
 fn open_locked(path: &Path) -> io::Result<File> {
     if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder)?;
+        fs::create_dir_all(folder).map_err(|e| {
+            let message = format!("there can be no folder {} ({e})", folder.display());
+            io::Error::new(e.kind(), message)
+        })?;
     }
     let file = OpenOptions::new()
         .write(true)

@@ -1,12 +1,12 @@
 //! What can be recorded of a body.
 
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use std::ops::Deref;
 
 /// A quantity of a body's nodes, elements, Voronoi cells or frames (one an element, or the one of a rigid body).
 /// World components are along `x, y, z`, material ones along the directors `d1, d2, d3`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum Quantity {
     /// Position of nodes, world frame, in m.
     Position,
@@ -57,8 +57,8 @@ pub enum Quantity {
 }
 
 /// At least one quantity, each once; position and frame unless named.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(try_from = "Vec<Quantity>")]
+#[derive(Clone, Debug, Deserialize, Serialize, JsonSchema)]
+#[serde(try_from = "Vec<Quantity>", into = "Vec<Quantity>")]
 #[schemars(with = "Vec<Quantity>")]
 pub(crate) struct Quantities(Vec<Quantity>);
 
@@ -77,9 +77,15 @@ impl TryFrom<Vec<Quantity>> for Quantities {
         }
         let again = (1..quantities.len()).find(|i| quantities[..*i].contains(&quantities[*i]));
         match again {
-            Some(i) => Err(format!("{:?} is named twice", quantities[i])),
+            Some(i) => Err(format!("{:?} is named twice; name it once", quantities[i])),
             None => Ok(Self(quantities)),
         }
+    }
+}
+
+impl From<Quantities> for Vec<Quantity> {
+    fn from(quantities: Quantities) -> Self {
+        quantities.0
     }
 }
 

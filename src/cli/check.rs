@@ -25,7 +25,7 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
         {
             let system = &model.system;
             print(&format!(
-                "{}: good ({}; {} bodies, {} elements)",
+                "{}: good ({}; bodies: {}, elements: {})",
                 path.display(),
                 model.title,
                 system.ids().len(),

@@ -2,7 +2,7 @@
 
 use super::progress::Meter;
 use super::table::table;
-use super::{Failure, ScenarioArgs, print};
+use super::{Failure, ScenarioArgs, print, write_whole};
 use crate::compare::{Comparison, Mode, SampleKind, compare};
 use crate::config::Source;
 use crate::engine::scenario::{Scenario, Solver};
@@ -54,7 +54,7 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
         if to_stdout {
             print(&text)?;
         } else {
-            write_whole(path, &text)?;
+            write_whole(path, &(text + "\n"))?;
         }
     }
     Ok(())
@@ -66,17 +66,6 @@ fn mode_of(source: &Source) -> Result<Mode, Failure> {
         Solver::Steady { .. } => Mode::Steady,
         Solver::Dynamic { .. } => Mode::Dynamic,
     })
-}
-
-/// Writes beside the file first, so that it is whole or as it was.
-fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
-    let part = path.with_extension("part");
-    std::fs::write(&part, format!("{text}\n"))
-        .and_then(|()| std::fs::rename(&part, path))
-        .map_err(|source| Failure::Output {
-            path: path.into(),
-            source,
-        })
 }
 
 /// The comparison for people.

@@ -4,7 +4,7 @@ use crate::compare::CompareError;
 use crate::config::Problems;
 use crate::engine::RunError;
 use std::io::IsTerminal;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 /// Why a command failed.
@@ -57,6 +57,11 @@ impl From<CompareError> for Failure {
 }
 
 impl Failure {
+    pub(super) fn output(path: &Path, source: std::io::Error) -> Self {
+        let path = path.into();
+        Self::Output { path, source }
+    }
+
     /// Tells the failure on stderr and gives the exit code.
     pub fn report(&self) -> ExitCode {
         match self {

@@ -10,7 +10,7 @@ mod run;
 mod table;
 
 use clap::{Args, Parser, Subcommand};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 pub use failure::Failure;
@@ -89,4 +89,17 @@ fn print(text: &str) -> Result<(), Failure> {
         }),
         _ => Ok(()),
     }
+}
+
+/// Writes beside the file first, so that it is whole or as it was.
+fn write_whole(path: &Path, text: &str) -> Result<(), Failure> {
+    let mut part = path.as_os_str().to_owned();
+    part.push(".part");
+    let part = Path::new(&part);
+    std::fs::write(part, text)
+        .and_then(|()| std::fs::rename(part, path))
+        .map_err(|source| {
+            let _ = std::fs::remove_file(part); // the first failure is the one to tell
+            Failure::output(path, source)
+        })
 }

@@ -1,8 +1,8 @@
 //! `auxetica plugins`
 
-use super::table::table;
+use super::table::{bare, words};
 use super::{Failure, print};
-use crate::config::{Plugin, plugins};
+use crate::config::{Plugin, plugins, remedy};
 use std::collections::BTreeMap;
 
 #[derive(clap::Args)]
@@ -25,19 +25,15 @@ fn list() -> Result<(), Failure> {
     }
     let mut out = String::new();
     for (slot, plugins) in slots {
-        out += &format!("{slot}:\n");
-        for plugin in plugins {
-            let summary = plugin
-                .summary()
-                .split_whitespace()
-                .collect::<Vec<_>>()
-                .join(" ");
+        let row = |plugin: &Plugin| {
+            let summary = one_line(&plugin.summary());
             let sentence = summary
                 .split_once(". ")
                 .map_or(&*summary, |(first, _)| first);
-            out += &format!("  {:<18} {}\n", plugin.name, sentence.trim_end_matches('.'));
-        }
-        out.push('\n');
+            let sentence = sentence.trim_end_matches('.').to_owned();
+            vec![format!("{:<16}", plugin.name), sentence]
+        };
+        out += &format!("{slot}:\n{}\n\n", bare(plugins.into_iter().map(row)));
     }
     print(&(out + "`auxetica plugins NAME` explains one."))
 }
@@ -47,8 +43,8 @@ fn explain(name: &str) -> Result<(), Failure> {
     if found.is_empty() {
         let known: Vec<_> = plugins().map(|p| p.name).collect();
         return Err(Failure::Unknown(format!(
-            "there is no plugin named `{name}`; there are {}",
-            known.join(", ")
+            "there is no plugin named `{name}`; {}",
+            remedy(name, &known, "known")
         )));
     }
     for plugin in found {
@@ -58,7 +54,7 @@ fn explain(name: &str) -> Result<(), Failure> {
             plugin.noun,
             plugin.slot,
             plugin.package,
-            plugin.summary(),
+            bare([vec![one_line(&plugin.summary())]]),
             plugin.source,
             plugin.example
         ))?;
@@ -68,11 +64,14 @@ fn explain(name: &str) -> Result<(), Failure> {
                 let default = f
                     .default
                     .unwrap_or_else(|| if f.required { "required" } else { "optional" }.to_owned());
-                let doc = f.doc.split_whitespace().collect::<Vec<_>>().join(" ");
-                vec![f.name, f.type_words, default, doc]
+                vec![f.name, f.type_words, default, one_line(&f.doc)]
             });
-            print(&table(&["field", "type", "default", "meaning"], rows))?;
+            print(&words(&["field", "type", "default", "meaning"], rows))?;
         }
     }
     Ok(())
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

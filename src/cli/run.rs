@@ -2,9 +2,13 @@
 
 use super::progress::Meter;
 use super::table::table;
-use super::{Failure, ScenarioArgs, print};
-use crate::engine::{End, Model, Place, ReadBody, Summary};
-use std::path::PathBuf;
+use super::{Failure, ScenarioArgs, print, write_whole};
+use crate::config::Source;
+use crate::engine::scenario::Watcher;
+use crate::engine::{
+    Body, Callback, CallbackError, End, Model, Place, ReadBody, RunError, Snapshot, Summary,
+};
+use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 pub(super) struct Options {
@@ -24,14 +28,13 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
     });
     if !model.watchers.is_empty() || options.out.is_some() {
         // The resolved text stands alone: whoever finds the results can make them again.
-        let write = || {
-            std::fs::create_dir_all(&out)?;
-            std::fs::write(out.join("scenario.ron"), source.text())
+        let keeper = Watcher {
+            name: "scenario".into(),
+            every: f64::INFINITY,
+            bodies: Vec::new(),
+            callback: Box::new(KeepScenario(source.text().to_owned())),
         };
-        write().map_err(|source| Failure::Output {
-            path: out.clone(),
-            source,
-        })?;
+        model.watchers.insert(0, keeper);
     }
     let mut states = Vec::new();
     let mut meter = Meter::new("solving", quiet);
@@ -40,7 +43,7 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
             states.extend(state_rows(model));
         });
         drop(meter);
-        outcome?
+        outcome.map_err(|e| at_its_place(e, &source))?
     };
     print(&format!("{}\n", model.title))?;
     print(&table(
@@ -59,6 +62,37 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
         print(&format!("written: {}", file.display()))?;
     }
     Ok(())
+}
+
+/// Writes the scenario beside its results.
+struct KeepScenario(String);
+
+impl Callback for KeepScenario {
+    fn start(&mut self, out: &Path, _bodies: &[Body<'_>]) -> Result<(), CallbackError> {
+        let path = out.join("scenario.ron");
+        std::fs::create_dir_all(out)
+            .map_err(|source| Failure::output(out, source))
+            .and_then(|()| write_whole(&path, &self.0))
+            .map_err(|failure| CallbackError {
+                what: "keeping the scenario".into(),
+                source: failure.into(),
+            })
+    }
+
+    fn record(&mut self, _snapshot: &Snapshot<'_>) -> Result<(), CallbackError> {
+        Ok(())
+    }
+}
+
+/// A time step that is too long is a problem of the scenario.
+fn at_its_place(error: RunError, source: &Source) -> Failure {
+    let RunError::Unstable { .. } = error else {
+        return error.into();
+    };
+    let message = error.to_string();
+    let (what, remedy) = message.split_once("; ").unwrap_or((&message, ""));
+    let problem = source.problem("solver.dt", what).with_hint(remedy);
+    Failure::Scenario(problem.into())
 }
 
 /// Where the markers are, or without any the tips of all bodies.

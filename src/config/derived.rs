@@ -1,5 +1,6 @@
 //! Loading a file, and the files that it is derived from by `base:` and `set:`.
 
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,8 +15,16 @@ use crate::scan;
 /// Loads a file with the values of its bases; `above` are the files that led here.
 pub(crate) fn load(file: &Path, above: &mut Vec<PathBuf>) -> Result<Patchwork, Problem> {
     let text = std::fs::read_to_string(file).map_err(|error| {
-        Problem::new(format!("`{}` cannot be read: {error}", file.display()))
-            .with_hint("check the name and the folder it is given from")
+        Problem::new(format!("`{}` cannot be read: {error}", file.display())).with_hint(match error
+            .kind()
+        {
+            ErrorKind::NotFound => "check the name and the folder it is given from",
+            ErrorKind::IsADirectory => "give a scenario file, not its folder",
+            ErrorKind::InvalidData => {
+                "a scenario is a text in UTF-8; is this another kind of file?"
+            }
+            _ => "check that it is a file that you may read",
+        })
     })?;
     let origin = Arc::new(Origin {
         name: file.display().to_string(),

@@ -52,10 +52,9 @@ pub(crate) fn diagnose(text: &str, root: &Node, error: &SpannedError) -> Finding
         Error::ExpectedDifferentLength { expected, found } => {
             let bracket = smallest(root, &|node| is_bracket(node) && node.span.contains(&end));
             let span = bracket.map_or(next, |node| node.span.clone());
-            Finding::new(
-                span,
-                format!("expected {}, found {found}", length(expected)),
-            )
+            let wanted = length(expected);
+            Finding::new(span, format!("expected {wanted}, found {found}"))
+                .hint(format!("give {wanted} in the bracket"))
         }
         Error::Message(message) => match Finding::unpack(message) {
             Some(packed) => {

@@ -184,6 +184,12 @@ fn ron_words(root: &Value, schema: &Value, value: &Value) -> String {
                 format!("[{}]", items.join(", "))
             }
         }
+        // A choice that holds one value.
+        Value::Object(fields) if fields.len() == 1 && is_choice(fields) => {
+            let held = fields.iter();
+            held.map(|(name, v)| format!("{name}({})", ron_words(root, &Value::Null, v)))
+                .collect()
+        }
         Value::Object(fields) => {
             let fields: Vec<_> = fields
                 .iter()

@@ -82,6 +82,7 @@ pub use plugin::{Build, Hook, Plugin, plugins};
 pub use problem::{Problem, Problems};
 pub use profile::Profile;
 pub use source::{Source, options};
+pub use suggest::remedy;
 pub use vector::{Direction, Vec3};
 
 // For `register!`, which expands in crates that may not depend on these themselves.

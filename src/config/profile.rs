@@ -37,7 +37,7 @@ impl Profile {
     pub fn check_len(&self, n: usize) -> Result<(), String> {
         match self {
             Self::Listed(numbers) if numbers.len() != n => Err(format!(
-                "expected {n} numbers, one for each place, or a single number; found a list of {}",
+                "the list has {} numbers for {n} places; give one for each, or a single number",
                 numbers.len()
             )),
             _ => Ok(()),

@@ -115,10 +115,9 @@ impl<'a> Scanner<'a> {
         match self.peek() {
             Some('(' | '[' | '{') => return self.group(start, None),
             None | Some(',' | ':' | ')' | ']' | '}') => {
-                return Err(Finding::new(
-                    self.token(),
-                    format!("expected a value, found {}", self.found()),
-                ));
+                let message = format!("expected a value, found {}", self.found());
+                return Err(Finding::new(self.token(), message)
+                    .hint("values look like 0.1, (0, 0, 1), [1, 2], \"text\" or Name(..)"));
             }
             Some(_) if self.string()? => {}
             Some(_) => return self.word(),
@@ -176,7 +175,7 @@ impl<'a> Scanner<'a> {
         self.depth += 1;
         if self.depth > DEEPEST {
             let message = format!("brackets are nested more than {DEEPEST} deep");
-            return Err(Finding::new(opening..self.at, message));
+            return Err(Finding::new(opening..self.at, message).hint("are brackets doubled?"));
         }
         let (mut entries, mut items) = (Vec::new(), Vec::new());
         loop {
@@ -215,6 +214,8 @@ impl<'a> Scanner<'a> {
             self.blank()?;
             if !self.eat(',') && self.peek() != Some(close) {
                 self.refuse_end(opening, open, close)?;
+                let last = entries.last().map(|entry: &Entry| &entry.value);
+                self.refuse_run_on(last.or(items.last()))?;
                 let message = format!("expected `,` or `{close}`, found {}", self.found());
                 return Err(Finding::new(self.token(), message)
                     .hint("is a comma missing after the previous value?"));
@@ -234,6 +235,25 @@ impl<'a> Scanner<'a> {
         })
     }
 
+    /// A quote that is missing lets a text end at the next one, lines later.
+    fn refuse_run_on(&self, last: Option<&Node>) -> Result<(), Finding> {
+        let run_on = last.filter(|last| {
+            let text = &self.text[last.span.clone()];
+            matches!(last.body, Body::Leaf) && text.starts_with('"') && text.contains('\n')
+        });
+        match run_on {
+            None => Ok(()),
+            Some(Node { span, .. }) => Err(Finding::new(
+                span.start..span.start + 1,
+                format!(
+                    "this string goes on over the end of its line, up to {}",
+                    self.found()
+                ),
+            )
+            .hint("is its closing `\"` missing?")),
+        }
+    }
+
     fn refuse_end(&self, opening: usize, open: &str, close: char) -> Result<(), Finding> {
         match self.peek() {
             None => Err(Finding::new(
@@ -243,8 +263,14 @@ impl<'a> Scanner<'a> {
             .hint(format!("add the missing `{close}`"))),
             Some(c @ (')' | ']' | '}')) => Err(Finding::new(
                 self.at..self.at + 1,
-                format!("expected `{close}` to close the `{open}` before it, found `{c}`"),
-            )),
+                format!(
+                    "expected `{close}` to close the `{open}` of line {}, found `{c}`",
+                    1 + self.text[..opening].matches('\n').count()
+                ),
+            )
+            .hint(format!(
+                "is a `{close}` missing before it, or is it one too many?"
+            ))),
             Some(_) => Ok(()),
         }
     }

@@ -12,8 +12,8 @@ pub(crate) fn nearest<'a>(name: &str, candidates: &[&'a str]) -> Option<&'a str>
     (distance(best) <= name.len().div_ceil(3).min(name.len() / 2) || is_part).then_some(best)
 }
 
-/// "did you mean `a`? " (if there is a near one) and "`kind` are `a`, `b`".
-pub(crate) fn remedy(name: &str, candidates: &[&str], kind: &str) -> String {
+/// "did you mean `a`? " (if there is a near one) and "kind: `a`, `b`": the remedy for a `name` that isn't known.
+pub fn remedy(name: &str, candidates: &[&str], kind: &str) -> String {
     let known = match candidates {
         [] => format!("there are no {kind}"),
         _ => format!("{kind}: {}", quoted(candidates)),

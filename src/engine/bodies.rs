@@ -11,7 +11,9 @@ use crate::vectors::{Matrices, Vectors};
 use nalgebra::{Matrix3, Vector3};
 
 /// One end of a rod.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize, schemars::JsonSchema,
+)]
 pub enum End {
     /// At the first node.
     Start,
@@ -20,7 +22,17 @@ pub enum End {
 }
 
 /// How a boundary condition holds the frame of a rod's end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize, schemars::JsonSchema)]
+#[derive(
+    Clone,
+    Copy,
+    Debug,
+    Default,
+    PartialEq,
+    Eq,
+    serde::Deserialize,
+    serde::Serialize,
+    schemars::JsonSchema,
+)]
 pub enum Cell {
     /// The end element is fixed, as in PyElastica; half of its length doesn't bend.
     #[default]

@@ -1,11 +1,11 @@
 //! Named inputs over time (motor angles, say) and the signals that plugins take them from.
 
-use auxetica_config::{Finite, Positive};
-use serde::Deserialize;
+use auxetica_config::{Finite, Positive, remedy};
+use serde::{Deserialize, Serialize};
 
 /// A piecewise-linear function of time, constant before its first and after its last point.
-#[derive(Clone, Debug, PartialEq, Deserialize, schemars::JsonSchema)]
-#[serde(try_from = "Vec<(f64, f64)>")]
+#[derive(Clone, Debug, PartialEq, Deserialize, Serialize, schemars::JsonSchema)]
+#[serde(try_from = "Vec<(f64, f64)>", into = "Vec<(f64, f64)>")]
 #[schemars(with = "Vec<(f64, f64)>")]
 pub struct Series {
     times: Vec<f64>,
@@ -17,17 +17,17 @@ impl Series {
     pub fn new(times: Vec<f64>, values: Vec<f64>) -> Result<Self, String> {
         if times.is_empty() || times.len() != values.len() {
             return Err(format!(
-                "a series needs as many values as times and at least one, it has {} and {}",
+                "a series needs as many values as times, it has {} and {}; give at least one (time, value)",
                 values.len(),
                 times.len()
             ));
         }
         if let Some(bad) = times.iter().chain(&values).find(|v| !v.is_finite()) {
-            return Err(format!("a series holds {bad}"));
+            return Err(format!("a series holds {bad}; give finite numbers"));
         }
         if let Some(i) = times.windows(2).position(|w| w[0] >= w[1]) {
             return Err(format!(
-                "times of a series must increase, but {} s is followed by {} s",
+                "times of a series must increase, but {} s is followed by {} s; give each point a later time",
                 times[i],
                 times[i + 1]
             ));
@@ -61,6 +61,12 @@ impl TryFrom<Vec<(f64, f64)>> for Series {
     fn try_from(points: Vec<(f64, f64)>) -> Result<Self, String> {
         let (times, values) = points.into_iter().unzip();
         Self::new(times, values)
+    }
+}
+
+impl From<Series> for Vec<(f64, f64)> {
+    fn from(series: Series) -> Self {
+        series.times.into_iter().zip(series.values).collect()
     }
 }
 
@@ -98,7 +104,7 @@ impl Inputs {
 }
 
 /// A number that may change with time.
-#[derive(Clone, Debug, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Debug, Deserialize, Serialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Signal {
     /// Always the same.
@@ -133,8 +139,8 @@ impl Signal {
     pub fn check(&self, inputs: &Inputs) -> Result<(), String> {
         match self {
             Self::Input(name) if inputs.get(name).is_none() => Err(format!(
-                "there is no input `{name}`; the scenario's inputs are: {}",
-                inputs.names().collect::<Vec<_>>().join(", ")
+                "there is no input `{name}`; {}",
+                remedy(name, &inputs.names().collect::<Vec<_>>(), "inputs")
             )),
             _ => Ok(()),
         }

@@ -83,6 +83,8 @@ impl Model {
     ) -> Result<Summary, RunError> {
         let mut summary = Summary::default();
         self.system.apply_boundaries();
+        // Before any callback replaces results: what can't be run leaves them as they are.
+        let step = self.time_step()?;
         let mut started = 0;
         let mut outcome = Ok(());
         for watcher in &mut self.watchers {
@@ -99,15 +101,9 @@ impl Model {
         }
         if outcome.is_ok() {
             outcome = match self.solver.clone() {
-                Solver::Dynamic {
-                    duration,
-                    dt,
-                    unstable,
-                } => {
-                    let dt = dt.map(|dt| *dt);
-                    let done = self.run_dynamic(*duration, dt, unstable, &mut summary, progress);
-                    done.inspect(|()| reached(self))
-                }
+                Solver::Dynamic { duration, .. } => self
+                    .run_dynamic(*duration, step, &mut summary, progress)
+                    .inspect(|()| reached(self)),
                 Solver::Steady { at, tolerance } => {
                     let at = at.iter().map(|t| **t).collect();
                     self.run_steady(at, *tolerance, &mut summary, progress, reached)
@@ -125,21 +121,29 @@ impl Model {
         outcome.map(|()| summary)
     }
 
+    /// Time step wanted and stability limit \[s\]; a steady run has none.
+    fn time_step(&mut self) -> Result<(f64, f64), RunError> {
+        let Solver::Dynamic { dt, unstable, .. } = self.solver else {
+            return Ok((0.0, 0.0));
+        };
+        let system = &mut self.system;
+        let guess = dt.map_or_else(|| stability::wave_time(system), |dt| *dt);
+        let limit = stability::limit(system, guess);
+        let dt = dt.map_or(limit * LARGEST_SHARE, |dt| *dt);
+        if dt > limit && !unstable {
+            return Err(RunError::Unstable { dt, limit });
+        }
+        Ok((dt, limit))
+    }
+
     fn run_dynamic(
         &mut self,
         duration: f64,
-        dt: Option<f64>,
-        unstable: bool,
+        (wanted, limit): (f64, f64),
         summary: &mut Summary,
         progress: &mut Progress<'_>,
     ) -> Result<(), RunError> {
         let system = &mut self.system;
-        let guess = dt.unwrap_or_else(|| stability::wave_time(system));
-        let limit = stability::limit(system, guess);
-        let wanted = dt.unwrap_or(limit * LARGEST_SHARE);
-        if wanted > limit && !unstable {
-            return Err(RunError::Unstable { dt: wanted, limit });
-        }
         let steps = (duration / wanted).ceil().max(1.0);
         let dt = duration / steps;
         (summary.dt, summary.stability_limit) = (dt, limit);

@@ -7,7 +7,7 @@ use crate::rotation;
 use crate::site::Place;
 use crate::system::{BodyId, System};
 use crate::view::{Body, ReadBody};
-use auxetica_config::{Hook, Problem, Problems, Source};
+use auxetica_config::{Hook, Problem, Problems, Source, remedy};
 use nalgebra::{Matrix3, Vector3};
 use ron::value::RawValue;
 use std::collections::BTreeMap;
@@ -187,7 +187,7 @@ impl Builder<'_> {
         add: impl Fn(&mut System, BodyId, &str, Box<H>) -> Result<(), String>,
     ) {
         for entry in applied {
-            let path = self.source.path_of(entry.apply);
+            let path = self.path_of_on(entry.apply);
             let name = self.report_name(entry.apply);
             let ids = match &entry.on {
                 Targets::All => {
@@ -227,6 +227,15 @@ impl Builder<'_> {
                 continue;
             };
             let name = self.report_name(entry.apply);
+            if first.iter().any(|side| side.0 == second.0) {
+                let body = self.system.body(second.0);
+                let e = format!(
+                    "`{}` is on both sides; name another body on one side",
+                    body.name()
+                );
+                self.refuse(&path, e);
+                continue;
+            }
             for side in first {
                 let built = self.source.build::<dyn Joint>(entry.apply);
                 let Some(joint) = self.problems.collect(built) else {
@@ -257,7 +266,7 @@ impl Builder<'_> {
                 let (name, nodes) = (body.name().to_owned(), body.nodes());
                 self.refuse(
                     path,
-                    format!("`{name}` has nodes 0 to {}, not {node}", nodes - 1),
+                    format!("`{name}` has no node {node}; give 0 to {}", nodes - 1),
                 );
                 return None;
             }
@@ -268,7 +277,7 @@ impl Builder<'_> {
     fn watchers(&mut self, scenario: &Scenario<'_>) -> Vec<Watcher> {
         let mut watchers = Vec::new();
         for entry in &scenario.callbacks {
-            let path = self.source.path_of(entry.apply);
+            let path = self.path_of_on(entry.apply);
             let bodies = match &entry.on {
                 Targets::All => self.system.ids().to_vec(),
                 Targets::Named(names) => self.resolve(names, &path),
@@ -288,6 +297,13 @@ impl Builder<'_> {
 
     fn markers(&mut self, scenario: &Scenario<'_>) {
         for (i, marker) in scenario.markers.iter().enumerate() {
+            let earlier = &scenario.markers[..i];
+            if earlier.iter().any(|other| other.name == marker.name) {
+                self.refuse(
+                    &format!("markers[{i}].name"),
+                    format!("the name `{}` is taken; give another", marker.name),
+                );
+            }
             if self.system.find(&marker.on).is_none() {
                 let unknown = self.unknown(&marker.on);
                 self.refuse(&format!("markers[{i}].on"), unknown);
@@ -320,15 +336,10 @@ impl Builder<'_> {
     fn unknown(&self, name: &str) -> String {
         let bodies = self.system.ids().iter().map(|id| self.system.body(*id));
         let bodies: Vec<_> = bodies.map(|b| b.name().to_owned()).collect();
-        let known: Vec<_> = self
-            .groups
-            .keys()
-            .chain(&bodies)
-            .map(|n| format!("`{n}`"))
-            .collect();
+        let known: Vec<_> = self.groups.keys().chain(&bodies).map(|n| &**n).collect();
         format!(
-            "there is no body named `{name}`; there are {}",
-            known.join(", ")
+            "there is no body named `{name}`; {}",
+            remedy(name, &known, "bodies")
         )
     }
 
@@ -346,6 +357,15 @@ impl Builder<'_> {
         add: impl FnOnce(&mut System) -> Result<T, String>,
     ) -> Option<T> {
         add(&mut self.system).map_err(|e| self.refuse(path, e)).ok()
+    }
+
+    /// The path of the `on:` beside a plugin.
+    fn path_of_on(&self, slot: &RawValue) -> String {
+        let path = self.source.path_of(slot);
+        match path.strip_suffix("apply") {
+            Some(entry) => format!("{entry}on"),
+            None => path,
+        }
     }
 
     fn report_name(&self, slot: &RawValue) -> String {

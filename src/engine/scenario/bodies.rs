@@ -241,7 +241,11 @@ impl RodGroup {
             rest_kappa: vector(self.rest_curvature),
             caps: [*self.caps.start, *self.caps.tip],
         };
-        rod.check().map_err(|e| ("name", e))?;
+        rod.check().map_err(|e| {
+            let message =
+                format!("{e}; check length, radius, density and material, all in SI units");
+            ("name", message)
+        })?;
         if self.at.is_empty() {
             return Ok(vec![rod]);
         }
@@ -261,7 +265,14 @@ impl CylinderSpec {
         let mass = match (self.mass, self.density) {
             (Some(mass), None) => *mass,
             (None, Some(density)) => *density * volume,
-            _ => return Err(("name", "give either `density` or `mass`".into())),
+            (Some(_), Some(_)) => {
+                let message = "both `density` and `mass` are given; leave one out";
+                return Err(("mass", message.into()));
+            }
+            (None, None) => {
+                let message = "neither `density` nor `mass` is given; add one of them";
+                return Err(("name", message.into()));
+            }
         };
         let axis = Unit::new_normalize(Vector3::from(*self.axis));
         let turn = Rotation3::rotation_between(&Vector3::z(), &axis).unwrap_or_else(|| {
