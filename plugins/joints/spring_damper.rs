@@ -6,23 +6,32 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Holds two bodies together as they were at rest, by springs and dampers in translation and rotation. Without
-/// rotational stiffness it is a ball joint.
+/// rotational stiffness it is a ball joint. The defaults are those of the paper's robot (section II-E).
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringDamper {
     /// Translational stiffness k_F [N/m].
+    #[serde(default = "stiffness")]
     stiffness: NonNegative,
     /// Translational damping nu_F [N s/m].
     #[serde(default)]
     damping: NonNegative,
     /// Rotational stiffness k_tau [N m/rad].
-    #[serde(default)]
+    #[serde(default = "rotational_stiffness")]
     rotational_stiffness: NonNegative,
     /// Rotational damping nu_tau [N m s/rad].
     #[serde(default)]
     rotational_damping: NonNegative,
     #[serde(skip)]
     rest: Rest,
+}
+
+fn stiffness() -> NonNegative {
+    NonNegative::new(5e5).expect("the paper's stiffness is positive")
+}
+
+fn rotational_stiffness() -> NonNegative {
+    NonNegative::new(20.0).expect("the paper's stiffness is positive")
 }
 
 /// The first body's pose at rest, seen from the second.
