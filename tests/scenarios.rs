@@ -14,7 +14,10 @@ fn solve(file: &Path) -> Result<(), String> {
     let mut model = Model::build(&source, None).map_err(|e| e.to_string())?;
     match model.solver.clone() {
         Solver::Steady { at, .. } => {
-            let first = at.first().map(|t| **t).or(model.dwells.first().copied());
+            let first = at
+                .first()
+                .map(|t| **t)
+                .or(model.dwells.first().map(|dwell| dwell.time));
             common::steady(&mut model, first.unwrap_or(0.0));
         }
         Solver::Dynamic { dt, .. } => {

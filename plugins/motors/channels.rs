@@ -1,6 +1,6 @@
 //! Inputs written out in the scenario.
 
-use auxetica_engine::{Actuation, Inputs, Series, register};
+use auxetica_engine::{Actuation, Dwell, Inputs, Series, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use std::collections::BTreeMap;
@@ -32,12 +32,17 @@ impl Actuation for Channels {
         ))
     }
 
-    fn dwells(&self) -> Vec<f64> {
-        if self.dwells.is_empty() {
-            let last = self.channels.values().map(|s| s.span().1);
-            last.reduce(f64::max).into_iter().collect()
+    fn dwells(&self) -> Vec<Dwell> {
+        let last = || self.channels.values().map(|s| s.span().1).reduce(f64::max);
+        let times = if self.dwells.is_empty() {
+            last().into_iter().collect()
         } else {
             self.dwells.clone()
-        }
+        };
+        let unnamed = |time| Dwell {
+            time,
+            name: String::new(),
+        };
+        times.into_iter().map(unnamed).collect()
     }
 }

@@ -1,6 +1,6 @@
 //! The motion primitives of a robot of four handed shearing auxetics (Stölzle et al. 2023, Fig. 2).
 
-use auxetica_engine::{Actuation, Inputs, NonNegative, Positive, Series, register};
+use auxetica_engine::{Actuation, Dwell, Inputs, NonNegative, Positive, Series, register};
 use nalgebra::{Matrix4, Vector4};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -123,10 +123,12 @@ impl Actuation for MotionPrimitives {
         Ok(Inputs::new(channels?))
     }
 
-    fn dwells(&self) -> Vec<f64> {
-        (0..self.sequence.len())
-            .map(|k| k as f64 * self.period() + *self.ramp + *self.hold)
-            .collect()
+    fn dwells(&self) -> Vec<Dwell> {
+        let dwell = |(k, primitive): (usize, &Primitive)| Dwell {
+            time: k as f64 * self.period() + *self.ramp + *self.hold,
+            name: format!("{primitive:?}"),
+        };
+        self.sequence.iter().enumerate().map(dwell).collect()
     }
 }
 

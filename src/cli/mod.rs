@@ -7,6 +7,7 @@ mod failure;
 mod plugins;
 mod progress;
 mod run;
+mod states;
 mod table;
 
 use clap::{Args, Parser, Subcommand};

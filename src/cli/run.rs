@@ -1,13 +1,11 @@
 //! `auxetica run`
 
 use super::progress::Meter;
-use super::table::table;
+use super::states::States;
 use super::{Failure, ScenarioArgs, print, write_whole};
 use crate::config::Source;
 use crate::engine::scenario::Watcher;
-use crate::engine::{
-    Body, Callback, CallbackError, End, Model, Place, ReadBody, RunError, Snapshot, Summary,
-};
+use crate::engine::{Body, Callback, CallbackError, Model, RunError, Snapshot, Summary};
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
@@ -36,27 +34,17 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
         };
         model.watchers.insert(0, keeper);
     }
-    let mut states = Vec::new();
+    let mut states = States::new(&model);
     let mut meter = Meter::new("solving", quiet);
     let summary = {
         let outcome = model.run(&out, &mut |done| meter.update(done), &mut |model| {
-            states.extend(state_rows(model));
+            states.push(model);
         });
         drop(meter);
         outcome.map_err(|e| at_its_place(e, &source))?
     };
     print(&format!("{}\n", model.title))?;
-    print(&table(
-        &[
-            "where",
-            "t [s]",
-            "x [mm]",
-            "y [mm]",
-            "z [mm]",
-            "turned by [deg]",
-        ],
-        states,
-    ))?;
+    print(&states.table())?;
     print(&describe(&summary))?;
     for file in &summary.files {
         print(&format!("written: {}", file.display()))?;
@@ -93,37 +81,6 @@ fn at_its_place(error: RunError, source: &Source) -> Failure {
     let (what, remedy) = message.split_once("; ").unwrap_or((&message, ""));
     let problem = source.problem("solver.dt", what).with_hint(remedy);
     Failure::Scenario(problem.into())
-}
-
-/// Where the markers are, or without any the tips of all bodies.
-fn state_rows(model: &Model) -> Vec<Vec<String>> {
-    let time = model.system.time();
-    let row = |name: &str, position: nalgebra::Vector3<f64>, frame: nalgebra::Matrix3<f64>| {
-        // rows of a frame are directors: its transpose is the rotation from the world's axes
-        let turn = crate::engine::rotation::log(&frame.transpose()).map(|v| v.to_degrees());
-        let mm = position * 1e3;
-        vec![
-            name.to_owned(),
-            format!("{time:.3}"),
-            format!("{:.3}", mm.x),
-            format!("{:.3}", mm.y),
-            format!("{:.3}", mm.z),
-            format!("{:.2} {:.2} {:.2}", turn.x, turn.y, turn.z),
-        ]
-    };
-    let markers: Vec<_> = model
-        .markers
-        .iter()
-        .filter_map(|m| model.marker_pose(m).map(|(r, q)| row(&m.name, r, q)))
-        .collect();
-    if !markers.is_empty() {
-        return markers;
-    }
-    let bodies = model.system.ids().iter().map(|id| {
-        let site = model.system.site(*id, Place::End(End::Tip));
-        row(model.system.body(*id).name(), site.position, site.director)
-    });
-    bodies.collect()
 }
 
 fn describe(summary: &Summary) -> String {

@@ -83,10 +83,19 @@ pub trait Actuation: Send + Sync {
     /// The inputs, or in words what is wrong.
     fn inputs(&self) -> Result<Inputs, String>;
 
-    /// Times \[s\] at which the sequence has come to rest, if it has such.
-    fn dwells(&self) -> Vec<f64> {
+    /// When the sequence has come to rest, if it does.
+    fn dwells(&self) -> Vec<Dwell> {
         Vec::new()
     }
+}
+
+/// A time at which an actuation sequence is at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dwell {
+    /// Time \[s\].
+    pub time: f64,
+    /// What is reached there, for reports; empty if it has no name.
+    pub name: String,
 }
 
 /// What a callback sees at a time that it asked for.

@@ -28,7 +28,7 @@ pub use auxetica_config::{
 pub use bodies::{Cell, End};
 pub use cylinder::Cylinder;
 pub use hooks::{
-    Actuation, BoundaryCondition, Callback, CallbackError, Damping, Forcing, Joint, RodLaw,
+    Actuation, BoundaryCondition, Callback, CallbackError, Damping, Dwell, Forcing, Joint, RodLaw,
     Setting, Snapshot,
 };
 pub use inputs::{Inputs, Moment, Series, Signal};

@@ -127,8 +127,8 @@ impl Model {
             return Ok((0.0, 0.0));
         };
         let system = &mut self.system;
-        let guess = dt.map_or_else(|| stability::wave_time(system), |dt| *dt);
-        let limit = stability::limit(system, guess);
+        // Not sought from `dt`: damping stops all motion over steps that are long enough, which isn't stability.
+        let limit = stability::limit(system, stability::wave_time(system));
         let dt = dt.map_or(limit * LARGEST_SHARE, |dt| *dt);
         if dt > limit && !unstable {
             return Err(RunError::Unstable { dt, limit });
@@ -186,7 +186,7 @@ impl Model {
         reached: &mut dyn FnMut(&Self),
     ) -> Result<(), RunError> {
         if at.is_empty() {
-            at.clone_from(&self.dwells);
+            at = self.dwells.iter().map(|dwell| dwell.time).collect();
         }
         if at.is_empty() {
             at.push(0.0);

@@ -1,7 +1,9 @@
 //! From a scenario's text to a model: bodies built, plugins read, names resolved, every problem reported at once.
 
 use super::{Applied, Marker, Scenario, Solver, Targets, targets::name_and_place};
-use crate::hooks::{Actuation, BoundaryCondition, Callback, Damping, Forcing, Joint, RodLaw};
+use crate::hooks::{
+    Actuation, BoundaryCondition, Callback, Damping, Dwell, Forcing, Joint, RodLaw,
+};
 use crate::inputs::Inputs;
 use crate::rotation;
 use crate::site::Place;
@@ -35,8 +37,8 @@ pub struct Model {
     pub system: System,
     /// How to solve it.
     pub solver: Solver,
-    /// Times \[s\] at which the inputs are at rest.
-    pub dwells: Vec<f64>,
+    /// When the inputs are at rest.
+    pub dwells: Vec<Dwell>,
     /// Named points.
     pub markers: Vec<Marker>,
     /// Callbacks.
@@ -114,7 +116,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn inputs(&mut self, scenario: &Scenario<'_>, given: Option<Inputs>) -> Vec<f64> {
+    fn inputs(&mut self, scenario: &Scenario<'_>, given: Option<Inputs>) -> Vec<Dwell> {
         let mut dwells = Vec::new();
         let mut own = Inputs::default();
         if let Some(slot) = scenario.inputs {
