@@ -133,7 +133,7 @@ fn time_step(model: &mut Model) -> Result<f64, CompareError> {
         Solver::Dynamic { dt, .. } => dt.map(|dt| *dt),
         Solver::Steady { .. } => None,
     };
-    let guess = given.unwrap_or_else(|| stability::wave_time(&model.system));
+    let guess = stability::wave_time(&model.system);
     let limit = stability::limit(&mut model.system, guess);
     let dt = given.unwrap_or(LARGEST_SHARE * limit);
     if dt > limit {
