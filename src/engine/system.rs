@@ -6,6 +6,7 @@ use crate::hooks::{BoundaryCondition, Damping, Forcing, Joint, RodLaw, Setting};
 use crate::inputs::{Inputs, Moment};
 use crate::rod::Rod;
 use crate::site::{Place, Site};
+use crate::vectors::Vectors;
 use crate::view::{Body, LawView, LoadView, PoseView, RateView, ReadBody};
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -94,16 +95,23 @@ impl Group {
     }
 
     /// The name of the hook whose loads are the first that aren't finite, if one is to blame.
-    fn culprit(&mut self, now: &Moment<'_>) -> Option<String> {
+    pub(crate) fn culprit(&mut self, now: &Moment<'_>) -> Option<String> {
         self.internal_loads(now);
         let finite = |b: &Bodies| b.force.all_finite() && b.torque.all_finite();
         if !finite(&self.bodies) {
             let bodies = &self.bodies;
             let spoiled = |l: &&Hooked<dyn RodLaw>| {
-                let stations = bodies.layouts()[l.body].element_stations();
-                stations
-                    .into_iter()
-                    .any(|k| !bodies.rest_length[k].is_finite())
+                let layout = &bodies.layouts()[l.body];
+                let element = |k: usize| {
+                    !bodies.rest_length[k].is_finite()
+                        || !finite_at(&bodies.shear_stretch, k)
+                        || (finite_at(&bodies.sigma, k) && !finite_at(&bodies.stress, k))
+                };
+                let cell = |k: usize| {
+                    !finite_at(&bodies.bend_twist, k)
+                        || (finite_at(&bodies.kappa, k) && !finite_at(&bodies.couple, k))
+                };
+                layout.element_stations().any(element) || layout.cells().any(cell)
             };
             return self.laws.iter().find(spoiled).map(|l| l.name.clone());
         }
@@ -571,6 +579,10 @@ fn hooked<T: ?Sized>(name: &str, id: BodyId, hook: Box<T>) -> Hooked<T> {
 
 fn finite(v: Vector3<f64>) -> bool {
     v.iter().all(|x| x.is_finite())
+}
+
+fn finite_at(vectors: &Vectors, k: usize) -> bool {
+    finite(vectors.get(k))
 }
 
 /// Groups in parallel when there are several.

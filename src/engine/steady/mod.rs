@@ -4,6 +4,7 @@
 //! present one by continuation: boundary values move, and what was out of balance fades, in as few increments as
 //! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on.
 
+mod diagnosis;
 mod tangent;
 mod unknowns;
 
@@ -183,6 +184,7 @@ impl SteadySolver {
                     self.set_poses(system, &good);
                     increment /= 2.0;
                     if increment < self.options.smallest_increment {
+                        let reason = self.unheld(system).unwrap_or(reason);
                         return Err(NotSteady { time, reason });
                     }
                 }
@@ -205,6 +207,9 @@ impl SteadySolver {
             // The first step follows the tangent of the path; it takes held stations and walls there.
             let ahead = if iteration == 1 { to - from } else { 0.0 };
             let mut loads = self.imbalance(system);
+            if !loads.iter().all(|v| v.is_finite()) {
+                return Err(diagnosis::not_finite(system));
+            }
             if ahead > 0.0 {
                 path.turn_walls(system, from + DIFFERENCE * ahead);
                 for (load, moved) in loads.iter_mut().zip(self.imbalance(system)) {
@@ -213,14 +218,17 @@ impl SteadySolver {
                 path.turn_walls(system, from);
             }
             self.tangent.fill(system, &self.unknowns);
+            if let Some(station) = self.tangent.not_finite() {
+                return Err(diagnosis::no_derivative(system, &self.unknowns, station));
+            }
             let factors = self.tangent.factorise(&self.freedom)?;
             path.turn_walls(system, to);
             let mut change: Vec<f64> = (0..loads.len())
                 .map(|i| ahead * path.moves[i] + (1.0 - to) * path.imbalance[i] - loads[i])
                 .collect();
             if !solve(&factors, &mut change) {
-                return Err("the tangent matrix is singular: a body or a joint is free to move; hold it with a \
-                            boundary condition or a joint"
+                return Err("the tangent matrix is singular: something can move without resistance; hold it with \
+                            a boundary condition or a joint"
                     .into());
             }
             let largest = change.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -240,6 +248,12 @@ impl SteadySolver {
         Err("Newton's method didn't converge, however small the increment; follow the load from a smaller one \
              (ramps, closer times), or settle with the dynamic solver"
             .into())
+    }
+
+    /// Bodies that nothing holds, in words.
+    fn unheld(&mut self, system: &mut System) -> Option<String> {
+        self.tangent.fill(system, &self.unknowns);
+        diagnosis::unheld(system, &self.unknowns, &self.freedom, &self.tangent)
     }
 
     /// Loads in free directions, as the right-hand side takes them.

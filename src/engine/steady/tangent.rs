@@ -164,9 +164,10 @@ impl Tangent {
                         stations.iter().position(|s| *s == station)
                     };
                     if let (Some(node), Some(element)) = (place(side.node), place(side.element)) {
-                        let force = side.force * unknowns.scale;
-                        *&mut loads[node].fixed_rows_mut::<3>(0) += force;
-                        *&mut loads[element].fixed_rows_mut::<3>(3) += side.torque;
+                        let mut force = loads[node].fixed_rows_mut::<3>(0);
+                        force += side.force * unknowns.scale;
+                        let mut torque = loads[element].fixed_rows_mut::<3>(3);
+                        torque += side.torque;
                     }
                 }
                 loads
@@ -191,6 +192,35 @@ impl Tangent {
                 block += stations.len();
             }
         }
+    }
+
+    /// The largest entry in the columns of some stations.
+    pub(super) fn largest(&self, stations: &[usize]) -> f64 {
+        let blocks = self.blocks.iter().zip(&self.values);
+        blocks
+            .filter(|(block, _)| stations.contains(&block.column))
+            .fold(0.0, |largest, (_, value)| value.amax().max(largest))
+    }
+
+    /// A station whose loads' derivatives aren't finite numbers.
+    pub(super) fn not_finite(&self) -> Option<usize> {
+        let mut blocks = self.blocks.iter().zip(&self.values);
+        let bad = blocks.find(|(_, value)| !value.iter().all(|v| v.is_finite()));
+        bad.map(|(block, _)| block.row)
+    }
+
+    /// `(P J + s (I - P)) x`, P the projection on what is free.
+    pub(super) fn times(&self, freedom: &Freedom, x: &[f64], s: f64) -> Vec<f64> {
+        let at = |station: usize| {
+            Vector6::from_column_slice(&x[station * PER_STATION..(station + 1) * PER_STATION])
+        };
+        let free = &freedom.free;
+        let held = |(station, free): (usize, &Matrix6<f64>)| (at(station) - free * at(station)) * s;
+        let mut product: Vec<Vector6<f64>> = free.iter().enumerate().map(held).collect();
+        for (block, value) in self.blocks.iter().zip(&self.values) {
+            product[block.row] += free[block.row] * (value * at(block.column));
+        }
+        product.iter().flat_map(|v| v.iter().copied()).collect()
     }
 
     /// Factors of `P J + (I - P)`, P the projection on what is free: free rows ask for equilibrium, held rows for a

@@ -14,6 +14,8 @@ pub(super) struct Unknowns {
     offsets: Vec<usize>,
     /// Number of stations.
     pub(super) stations: usize,
+    /// Stations without a frame: the last of every rod.
+    frameless: Vec<usize>,
     /// Length \[m\] that makes displacements and forces comparable with rotations and torques.
     pub(super) scale: f64,
 }
@@ -22,20 +24,25 @@ impl Unknowns {
     pub(super) fn of(system: &System) -> Self {
         let mut offsets = Vec::new();
         let mut stations = 0;
+        let mut frameless = Vec::new();
         let (mut length, mut elements) = (0.0, 0usize);
         for group in &system.groups {
             offsets.push(stations);
-            stations += group.bodies.stations();
             for layout in group.bodies.layouts() {
+                if layout.is_rod() {
+                    frameless.push(stations + layout.first + layout.elements);
+                }
                 for k in layout.element_stations() {
                     length += group.bodies.reference_length[k];
                     elements += 1;
                 }
             }
+            stations += group.bodies.stations();
         }
         Self {
             offsets,
             stations,
+            frameless,
             scale: length / elements.max(1) as f64,
         }
     }
@@ -43,6 +50,11 @@ impl Unknowns {
     /// Global number of a group's station.
     pub(super) fn global(&self, group: usize, station: usize) -> usize {
         self.offsets[group] + station
+    }
+
+    /// Whether a global station has a frame.
+    pub(super) fn has_frame(&self, station: usize) -> bool {
+        self.frameless.binary_search(&station).is_err()
     }
 
     /// Group and station in it of a global station.
@@ -162,7 +174,8 @@ impl Freedom {
                     // a rod's last station has a node but no element
                     p.fixed_view_mut::<3, 6>(3, 0).fill(0.0);
                 }
-                if !((*p * *p - *p).amax() < 1e-9) {
+                let off = (*p * *p - *p).amax();
+                if off.is_nan() || off > 1e-9 {
                     return Err(format!(
                         "the boundary conditions on `{}` at node {i} aren't a projection of the rates, so a steady \
                          state can't be sought; what is not held must be left as it is",
