@@ -10,13 +10,13 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-/// The rows of a CSV file, each checked to be whole: all fields of the header, whole times of 11 rows.
+/// The number of rows of a CSV file, each checked to have all fields of the header.
 fn whole_rows(path: &Path) -> usize {
     let text = fs::read_to_string(path).expect("a table");
     assert!(text.ends_with('\n'), "the last row is cut");
     let mut rows = csv::Reader::from_reader(text.as_bytes());
     rows.records()
-        .map(|row| row.expect("as many fields as the header").len())
+        .inspect(|row| assert!(row.is_ok(), "{row:?}"))
         .count()
 }
 
@@ -186,7 +186,7 @@ fn an_interrupted_run_keeps_its_rows() {
         &["was stopped at t = ", "recorded until then is kept"],
     );
     let rows = whole_rows(&table);
-    assert!(rows > 0 && rows % 11 == 0, "{rows} rows");
+    assert!(rows > 0 && rows.is_multiple_of(11), "{rows} rows");
 }
 
 #[test]
@@ -204,7 +204,12 @@ fn a_rod_that_nothing_holds_has_no_steady_state() {
         folder.path(),
         &arguments,
         1,
-        &["no steady state was found at t = 0 s", "; "],
+        &[
+            "no steady state was found at t = 0 s",
+            "`rod`",
+            "boundary condition",
+            "; ",
+        ],
     );
     assert!(text.len() < 500, "{text}");
 }

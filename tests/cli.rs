@@ -30,10 +30,7 @@ fn run_writes_the_files_it_says() {
     let header: Vec<_> = header.iter().take(3).collect();
     assert_eq!(header, ["time_s", "body", "index"]);
     // 21 times of 11 nodes
-    assert_eq!(
-        table.records().map(|r| r.expect("whole").len()).count(),
-        231
-    );
+    assert_eq!(table.records().inspect(|r| assert!(r.is_ok())).count(), 231);
     // What is kept beside it runs again and gives the same.
     let first = fs::read(folder.path().join("results/rod.csv")).unwrap();
     let again = ["run", "results/scenario.ron", "--out", "again"];
