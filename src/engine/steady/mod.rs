@@ -58,8 +58,6 @@ pub struct NotSteady {
 
 /// Largest rotation \[rad\] of boundary values in one increment of time.
 const LARGEST_TURN: f64 = 1.0;
-/// Largest Newton correction of one station against its neighbour, in radians and element lengths.
-const LARGEST_CORRECTION: f64 = 0.5;
 /// Factor by which each correction must at least shrink.
 const CONTRACTION: f64 = 0.5;
 /// Corrections below this stay on the branch, whatever their ratio: a law's kink may cost one that doesn't shrink.
@@ -233,10 +231,7 @@ impl SteadySolver {
             }
             let largest = change.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
             // Corrections that don't shrink fast may end on another branch than the one that is followed.
-            if bending(&change) > LARGEST_CORRECTION
-                || (largest > CONTRACTION * last && largest > HARMLESS)
-                || !largest.is_finite()
-            {
+            if !largest.is_finite() || (largest > CONTRACTION * last && largest > HARMLESS) {
                 break;
             }
             last = largest;
@@ -326,14 +321,4 @@ impl SteadySolver {
             group.bodies.walls.clone_from(walls);
         }
     }
-}
-
-/// Largest change of a station against the one before it: bodies may move far as long as they bend little.
-fn bending(change: &[f64]) -> f64 {
-    let neighbours = change
-        .chunks_exact(PER_STATION)
-        .zip(change.chunks_exact(PER_STATION).skip(1));
-    neighbours
-        .flat_map(|(a, b)| a.iter().zip(b).map(|(a, b)| (a - b).abs()))
-        .fold(0.0, f64::max)
 }

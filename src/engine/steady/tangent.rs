@@ -11,8 +11,9 @@ use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
 use nalgebra::{Matrix6, Vector6};
 
-/// Size of the differences, in the unknowns' own unit.
-const DIFFERENCE: f64 = 1e-7;
+/// Step of the central differences, in the unknowns' own unit. Forward ones would be too coarse for slender stiff rods:
+/// their error, of the axial rigidity times the step, exceeds the bending stiffness.
+const DIFFERENCE: f64 = 1e-5;
 
 /// A 6x6 block of the matrix, by stations.
 struct Block {
@@ -34,8 +35,8 @@ pub(super) struct Tangent {
     symbolic: SymbolicSparseColMat<usize>,
     order: Argsort<usize>,
     factors: SymbolicLu<usize>,
-    moved: Vec<f64>,
-    base: Vec<f64>,
+    forth: Vec<f64>,
+    back: Vec<f64>,
 }
 
 impl Tangent {
@@ -91,8 +92,8 @@ impl Tangent {
             symbolic,
             order,
             factors,
-            moved: vec![0.0; size],
-            base: vec![0.0; size],
+            forth: vec![0.0; size],
+            back: vec![0.0; size],
         })
     }
 
@@ -113,29 +114,30 @@ impl Tangent {
             time: *time,
             inputs,
         };
-        groups.iter_mut().for_each(|g| g.loads(&now));
-        unknowns.read_loads(groups, &mut self.base);
         for colour in 0..self.colours {
             for j in 0..PER_STATION {
-                let by = Vector6::ith(j, DIFFERENCE);
-                for group in groups.iter_mut() {
-                    let start = group.bodies.state.clone();
-                    for b in 0..group.bodies.layouts().len() {
-                        let layout = &group.bodies.layouts()[b];
-                        let (first, nodes) = (layout.first, layout.nodes());
-                        for i in (colour..nodes).step_by(self.colours) {
-                            unknowns.displace(&mut group.bodies, first + i, &by);
+                for (sign, loads) in [(1.0, &mut self.forth), (-1.0, &mut self.back)] {
+                    let by = Vector6::ith(j, sign * DIFFERENCE);
+                    for group in groups.iter_mut() {
+                        let start = group.bodies.state.clone();
+                        for b in 0..group.bodies.layouts().len() {
+                            let layout = &group.bodies.layouts()[b];
+                            let (first, nodes) = (layout.first, layout.nodes());
+                            for i in (colour..nodes).step_by(self.colours) {
+                                unknowns.displace(&mut group.bodies, first + i, &by);
+                            }
                         }
+                        group.loads(&now);
+                        group.bodies.state = start;
                     }
-                    group.loads(&now);
-                    group.bodies.state = start;
+                    unknowns.read_loads(groups, loads);
                 }
-                unknowns.read_loads(groups, &mut self.moved);
                 let blocks = self.blocks[..self.of_bodies].iter().zip(&mut self.values);
                 for (block, value) in blocks.filter(|(block, _)| block.colour == colour) {
                     let at = block.row * PER_STATION;
                     for i in 0..PER_STATION {
-                        value[(i, j)] = (self.moved[at + i] - self.base[at + i]) / DIFFERENCE;
+                        let change = self.forth[at + i] - self.back[at + i];
+                        value[(i, j)] = change / (2.0 * DIFFERENCE);
                     }
                 }
             }
@@ -172,7 +174,6 @@ impl Tangent {
                 }
                 loads
             };
-            let base = loads(groups);
             for column in stations {
                 let (group, k) = unknowns.locate(*column);
                 let (position, frame) = {
@@ -180,14 +181,19 @@ impl Tangent {
                     (state.position.get(k), state.director.get(k))
                 };
                 for j in 0..PER_STATION {
-                    let by = Vector6::ith(j, DIFFERENCE);
-                    unknowns.displace(&mut groups[group].bodies, k, &by);
-                    for (row, (moved, base)) in loads(groups).iter().zip(&base).enumerate() {
-                        self.values[block + row].set_column(j, &((moved - base) / DIFFERENCE));
+                    let [forth, back] = [1.0, -1.0].map(|sign| {
+                        let by = Vector6::ith(j, sign * DIFFERENCE);
+                        unknowns.displace(&mut groups[group].bodies, k, &by);
+                        let loads = loads(groups);
+                        let state = &mut groups[group].bodies.state;
+                        state.position.set(k, position);
+                        state.director.set(k, frame);
+                        loads
+                    });
+                    for (row, (forth, back)) in forth.iter().zip(&back).enumerate() {
+                        let slope = (forth - back) / (2.0 * DIFFERENCE);
+                        self.values[block + row].set_column(j, &slope);
                     }
-                    let state = &mut groups[group].bodies.state;
-                    state.position.set(k, position);
-                    state.director.set(k, frame);
                 }
                 block += stations.len();
             }
