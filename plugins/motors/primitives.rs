@@ -139,9 +139,15 @@ mod tests {
     #[test]
     fn angles_are_those_of_the_published_actuation_tables() {
         let u = 179.9_f64.to_radians();
-        assert_eq!(Primitive::Elongation.angles(u), [u, -u, u, -u]);
-        assert_eq!(Primitive::BendNorth.angles(u), [0.0, -u, u, 0.0]);
-        assert_eq!(Primitive::TwistClockwise.angles(u), [0.0, -u, 0.0, -u]);
-        assert_eq!(Primitive::TwistCounterclockwise.angles(u), [u, 0.0, u, 0.0]);
+        for (primitive, published) in [
+            (Primitive::Elongation, [u, -u, u, -u]),
+            (Primitive::BendNorth, [0.0, -u, u, 0.0]),
+            (Primitive::TwistClockwise, [0.0, -u, 0.0, -u]),
+            (Primitive::TwistCounterclockwise, [u, 0.0, u, 0.0]),
+        ] {
+            for (angle, published) in primitive.angles(u).into_iter().zip(published) {
+                assert!((angle - published).abs() < 1e-15, "{primitive:?}");
+            }
+        }
     }
 }

@@ -10,6 +10,12 @@ use crate::rod::Rod;
 use crate::vectors::{Matrices, Vectors};
 use nalgebra::{Matrix3, Vector3};
 
+/// Dilatations beyond which a simulation has blown up.
+pub(crate) const STRETCH: std::ops::Range<f64> = 1e-3..1e3;
+/// Rotation \[rad\] between neighbouring elements beyond which a simulation has blown up: past half a turn it would
+/// count the other way round.
+pub(crate) const TURN: f64 = 3.0;
+
 /// One end of a rod.
 #[derive(
     Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize, serde::Serialize, schemars::JsonSchema,
@@ -161,9 +167,16 @@ impl Bodies {
         &self.state
     }
 
-    /// Whether all rates are finite numbers.
-    pub(crate) fn rates_finite(&self) -> bool {
-        self.state.velocity.all_finite() && self.state.omega.all_finite()
+    /// Whether rates are finite numbers and elements still resemble what the model is made for.
+    pub(crate) fn is_sound(&self) -> bool {
+        let measured = |layout: &Layout| {
+            let stretched = |k| STRETCH.contains(&self.dilatation[k]);
+            let turned = |k| self.rotation.get(k).norm_squared() < TURN * TURN;
+            layout.element_stations().all(stretched) && layout.cells().all(turned)
+        };
+        self.state.velocity.all_finite()
+            && self.state.omega.all_finite()
+            && self.layouts.iter().all(measured)
     }
 
     /// Adds a rod at rest and returns its index. The rod has passed [`Rod::check`].

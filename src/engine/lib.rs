@@ -7,7 +7,10 @@
 //! are in the material frame of their element or cell. Indices count from a body's first node.
 
 pub mod bodies;
+mod connection;
 pub mod cylinder;
+mod energy;
+mod group;
 pub mod hooks;
 pub mod inputs;
 mod kernel;
@@ -18,6 +21,7 @@ pub mod scenario;
 pub mod site;
 pub mod stability;
 pub mod steady;
+mod step;
 pub mod system;
 pub mod vectors;
 pub mod view;
@@ -37,5 +41,6 @@ pub use run::{RunError, Summary};
 pub use scenario::Model;
 pub use site::{JointLoad, Place, Site, Wrench};
 pub use steady::{SteadyOptions, SteadyReport, SteadySolver};
-pub use system::{BlowUp, BodyId, System};
+pub use step::BlowUp;
+pub use system::{BodyId, System};
 pub use view::{Body, LawView, LoadView, PoseView, RateView, ReadBody};

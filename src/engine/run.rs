@@ -4,7 +4,8 @@ use crate::hooks::{CallbackError, Snapshot};
 use crate::scenario::{LARGEST_SHARE, Model, Solver, Watcher};
 use crate::stability;
 use crate::steady::{NotSteady, SteadyOptions, SteadyReport, SteadySolver};
-use crate::system::{BlowUp, System};
+use crate::step::BlowUp;
+use crate::system::System;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 

@@ -311,7 +311,7 @@ impl SteadySolver {
     }
 
     fn poses(&self, system: &System) -> Poses {
-        let group = |g: &crate::system::Group| (g.bodies.state.clone(), g.bodies.walls.clone());
+        let group = |g: &crate::group::Group| (g.bodies.state.clone(), g.bodies.walls.clone());
         system.groups.iter().map(group).collect()
     }
 

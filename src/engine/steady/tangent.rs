@@ -158,7 +158,7 @@ impl Tangent {
         };
         let mut block = self.of_bodies;
         for (joint, stations) in joints.iter().zip(&self.joints) {
-            let loads = |groups: &[crate::system::Group]| -> Vec<Vector6<f64>> {
+            let loads = |groups: &[crate::group::Group]| -> Vec<Vector6<f64>> {
                 let mut loads = vec![Vector6::zeros(); stations.len()];
                 for side in joint.applied(groups, &now) {
                     let place = |k: usize| {
@@ -260,7 +260,7 @@ fn joint_stations(system: &System, unknowns: &Unknowns) -> Vec<Vec<usize>> {
         time: system.time,
         inputs: &system.inputs,
     };
-    let stations = |joint: &crate::system::Connection| {
+    let stations = |joint: &crate::connection::Connection| {
         let mut stations: Vec<usize> = joint
             .applied(&system.groups, &now)
             .iter()

@@ -1,8 +1,9 @@
 //! The unknowns of a steady state: six a station, three of position and three of rotation.
 
 use crate::bodies::Bodies;
+use crate::group::Group;
 use crate::rotation;
-use crate::system::{Group, System};
+use crate::system::System;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// Unknowns a station: displacement over the length scale, and material rotation vector.

@@ -1,0 +1,131 @@
+//! Bodies that are computed together.
+
+use crate::bodies::Bodies;
+use crate::hooks::{BoundaryCondition, Damping, Forcing, RodLaw};
+use crate::inputs::Moment;
+use crate::vectors::Vectors;
+use crate::view::{LawView, LoadView, PoseView, RateView};
+use rayon::prelude::*;
+
+/// A hook, the body of its group that it acts on, and what reports call it.
+pub(crate) struct Hooked<T: ?Sized> {
+    pub(crate) name: String,
+    pub(crate) body: usize,
+    pub(crate) hook: Box<T>,
+}
+
+/// Bodies that are computed together, with the hooks that act on one body alone.
+#[derive(Default)]
+pub(crate) struct Group {
+    pub(crate) bodies: Bodies,
+    pub(crate) laws: Vec<Hooked<dyn RodLaw>>,
+    pub(crate) forcing: Vec<Hooked<dyn Forcing>>,
+    pub(crate) boundary: Vec<Hooked<dyn BoundaryCondition>>,
+    pub(crate) damping: Vec<Hooked<dyn Damping>>,
+}
+
+impl Group {
+    /// Boundary values of positions and frames.
+    pub(crate) fn set_values(&mut self, now: &Moment<'_>) {
+        for b in &self.boundary {
+            b.hook
+                .values(now, &mut PoseView::new(&mut self.bodies, b.body));
+        }
+    }
+
+    /// Boundary values of rates.
+    pub(crate) fn set_rates(&mut self, now: &Moment<'_>) {
+        for b in &self.boundary {
+            b.hook
+                .rates(now, &mut RateView::new(&mut self.bodies, b.body));
+        }
+    }
+
+    /// All loads but those of joints.
+    pub(crate) fn loads(&mut self, now: &Moment<'_>) {
+        self.internal_loads(now);
+        for f in &self.forcing {
+            f.hook
+                .apply(now, &mut LoadView::new(&mut self.bodies, f.body));
+        }
+        for b in &self.boundary {
+            b.hook
+                .loads(now, &mut LoadView::new(&mut self.bodies, b.body));
+        }
+    }
+
+    fn internal_loads(&mut self, now: &Moment<'_>) {
+        self.bodies.measure();
+        for l in &self.laws {
+            l.hook
+                .rest(now, &mut LawView::new(&mut self.bodies, l.body));
+        }
+        self.bodies.strain();
+        for l in &self.laws {
+            l.hook
+                .stress(now, &mut LawView::new(&mut self.bodies, l.body));
+        }
+        self.bodies.internal_loads();
+    }
+
+    /// Rates after a step under the present loads, damped and held.
+    pub(crate) fn kick(&mut self, now: &Moment<'_>, dt: f64) {
+        self.bodies.measure_rates();
+        self.bodies.kick(dt);
+        for d in &self.damping {
+            d.hook
+                .damp(dt, &mut RateView::new(&mut self.bodies, d.body));
+        }
+        self.set_rates(now);
+    }
+
+    /// The name of the hook whose loads are the first that aren't finite, if one is to blame.
+    pub(crate) fn culprit(&mut self, now: &Moment<'_>) -> Option<String> {
+        self.internal_loads(now);
+        let finite = |b: &Bodies| b.force.all_finite() && b.torque.all_finite();
+        if !finite(&self.bodies) {
+            let bodies = &self.bodies;
+            let spoiled = |l: &&Hooked<dyn RodLaw>| {
+                let layout = &bodies.layouts()[l.body];
+                let element = |k: usize| {
+                    !bodies.rest_length[k].is_finite()
+                        || !finite_at(&bodies.shear_stretch, k)
+                        || (finite_at(&bodies.sigma, k) && !finite_at(&bodies.stress, k))
+                };
+                let cell = |k: usize| {
+                    !finite_at(&bodies.bend_twist, k)
+                        || (finite_at(&bodies.kappa, k) && !finite_at(&bodies.couple, k))
+                };
+                layout.element_stations().any(element) || layout.cells().any(cell)
+            };
+            return self.laws.iter().find(spoiled).map(|l| l.name.clone());
+        }
+        for f in &self.forcing {
+            f.hook
+                .apply(now, &mut LoadView::new(&mut self.bodies, f.body));
+            if !finite(&self.bodies) {
+                return Some(f.name.clone());
+            }
+        }
+        for b in &self.boundary {
+            b.hook
+                .loads(now, &mut LoadView::new(&mut self.bodies, b.body));
+            if !finite(&self.bodies) {
+                return Some(b.name.clone());
+            }
+        }
+        None
+    }
+}
+
+fn finite_at(vectors: &Vectors, k: usize) -> bool {
+    vectors.get(k).iter().all(|x| x.is_finite())
+}
+
+/// Groups in parallel when there are several.
+pub(crate) fn each(groups: &mut [Group], work: impl Fn(&mut Group) + Sync + Send) {
+    match groups {
+        [only] => work(only),
+        many => many.par_iter_mut().for_each(work),
+    }
+}
