@@ -2,10 +2,11 @@
 
 mod assemble;
 mod bodies;
+mod model;
 mod targets;
 
-pub use assemble::{LARGEST_SHARE, Model, Watcher};
 pub use bodies::{Caps, CylinderSpec, Material, RodGroup};
+pub use model::{LARGEST_SHARE, Model, Watcher};
 pub use targets::Targets;
 
 use auxetica_config::{Finite, NonNegative, Positive, Vec3};

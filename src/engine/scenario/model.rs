@@ -1,0 +1,71 @@
+//! A scenario ready to be solved.
+
+use super::{Marker, Solver};
+use crate::hooks::{Callback, Dwell};
+use crate::rotation;
+use crate::system::{BodyId, System};
+use crate::view::{Body, ReadBody};
+use nalgebra::{Matrix3, Vector3};
+
+/// Share of the stability limit that a time step is chosen at when the scenario names none.
+pub const LARGEST_SHARE: f64 = 0.9;
+
+/// A callback with its bodies and its clock.
+pub struct Watcher {
+    /// Name of the plugin and place in the scenario, for reports.
+    pub name: String,
+    /// Time between calls \[s\].
+    pub every: f64,
+    /// Bodies that it sees.
+    pub bodies: Vec<BodyId>,
+    /// The callback.
+    pub callback: Box<dyn Callback>,
+}
+
+/// A scenario ready to be solved.
+pub struct Model {
+    /// What the scenario shows.
+    pub title: String,
+    /// Bodies and hooks.
+    pub system: System,
+    /// How to solve it.
+    pub solver: Solver,
+    /// When the inputs are at rest.
+    pub dwells: Vec<Dwell>,
+    /// Named points.
+    pub markers: Vec<Marker>,
+    /// Callbacks.
+    pub watchers: Vec<Watcher>,
+}
+
+impl Model {
+    /// Position in the world frame \[m\] and frame (rows are directors) of a marker.
+    pub fn marker_pose(&self, marker: &Marker) -> Option<(Vector3<f64>, Matrix3<f64>)> {
+        let body = self.system.body(self.system.find(&marker.on)?);
+        let (point, frame) = pose_along(&body, *marker.along);
+        Some((point + frame.tr_mul(&Vector3::from(*marker.offset)), frame))
+    }
+}
+
+/// Point and frame at a fraction of a rod's length, between the frames of the elements whose middles surround it.
+fn pose_along(body: &Body<'_>, along: f64) -> (Vector3<f64>, Matrix3<f64>) {
+    let n = body.elements();
+    if n == 0 {
+        return (body.position(0), body.director(0));
+    }
+    let nodes = along.min(1.0) * n as f64;
+    let node = (nodes as usize).min(n - 1);
+    let share = nodes - node as f64;
+    let point = body.position(node) * (1.0 - share) + body.position(node + 1) * share;
+    let middles = (nodes - 0.5).clamp(0.0, n as f64 - 1.0);
+    let element = (middles as usize).min(n.saturating_sub(2));
+    let frame = body.director(element);
+    if n == 1 {
+        return (point, frame);
+    }
+    let turn = rotation::between(&frame, &body.director(element + 1));
+    (
+        point,
+        rotation::turned(&frame, &(turn * (middles - element as f64))),
+    )
+}
