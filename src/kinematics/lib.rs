@@ -46,15 +46,16 @@ mod observed;
 mod selector;
 mod spcs;
 pub mod table2;
+mod weights;
 
 pub use descent::Descent;
 pub use fit::Fit;
 pub use least_squares::LeastSquares;
 pub use metrics::Metrics;
-pub use normal_equations::Weights;
 pub use observed::Observed;
 pub use selector::{StrainSelector, Variation};
 pub use spcs::Spcs;
+pub use weights::Weights;
 
 /// A rigid pose: a point on the rod and how the rod's local frame is turned there.
 pub type Pose = nalgebra::Isometry3<f64>;
