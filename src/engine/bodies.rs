@@ -12,9 +12,9 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Dilatations beyond which a simulation has blown up.
 pub(crate) const STRETCH: std::ops::Range<f64> = 1e-3..1e3;
-/// Rotation \[rad\] between neighbouring elements beyond which a simulation has blown up: past half a turn it would
-/// count the other way round.
-pub(crate) const TURN: f64 = 3.0;
+/// Root mean square of the rotations \[rad\] between a rod's neighbouring elements beyond which a simulation has blown up:
+/// frames turned at random have 2.3, a motor's jump by half a turn at one end of ten elements 1.0.
+const TANGLED: f64 = 2.0;
 
 /// One end of a rod.
 #[derive(
@@ -169,14 +169,25 @@ impl Bodies {
 
     /// Whether rates are finite numbers and elements still resemble what the model is made for.
     pub(crate) fn is_sound(&self) -> bool {
-        let measured = |layout: &Layout| {
-            let stretched = |k| STRETCH.contains(&self.dilatation[k]);
-            let turned = |k| self.rotation.get(k).norm_squared() < TURN * TURN;
-            layout.element_stations().all(stretched) && layout.cells().all(turned)
-        };
+        let whole = |k| STRETCH.contains(&self.dilatation[k]);
         self.state.velocity.all_finite()
             && self.state.omega.all_finite()
-            && self.layouts.iter().all(measured)
+            && self
+                .layouts
+                .iter()
+                .flat_map(Layout::element_stations)
+                .all(whole)
+            && !self.layouts.iter().any(|layout| self.is_tangled(layout))
+    }
+
+    /// Whether a rod's frames have lost all relation to each other.
+    pub(crate) fn is_tangled(&self, layout: &Layout) -> bool {
+        let squares: f64 = layout
+            .cells()
+            .map(|k| self.rotation.get(k).norm_squared())
+            .sum();
+        // at least four, since few cells may well be turned far by one motor
+        squares > TANGLED.powi(2) * layout.cells().len().max(4) as f64
     }
 
     /// Adds a rod at rest and returns its index. The rod has passed [`Rod::check`].

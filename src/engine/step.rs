@@ -1,6 +1,6 @@
 //! The step of position Verlet, and what is told when it fails.
 
-use crate::bodies::{STRETCH, TURN};
+use crate::bodies::STRETCH;
 use crate::connection::Connection;
 use crate::group::each;
 use crate::inputs::Moment;
@@ -112,8 +112,8 @@ impl System {
                     Some("its angular velocity is not finite")
                 } else if i < body.elements() && !STRETCH.contains(&body.dilatation(i)) {
                     Some("its element is stretched or squeezed a thousandfold")
-                } else if body.cells().contains(&i) && body.rotation(i).norm() > TURN {
-                    Some("its element is turned by half a turn against the one before")
+                } else if i == 0 && body.bodies().is_tangled(body.layout()) {
+                    Some("its elements are turned against each other at random from here on")
                 } else {
                     None
                 }
