@@ -58,9 +58,9 @@ struct Coefficients<T> {
 
 /// Below this t^2 differences of nearly equal terms are replaced by their series.
 const SERIES_BELOW: f64 = 1.0;
-/// (-1)^k / (2k + 2)!, the series of b in t^2.
+/// The series of b in t^2.
 const B: [f64; 9] = series(2);
-/// (-1)^k / (2k + 3)!, the series of c in t^2.
+/// The series of c in t^2.
 const C: [f64; 9] = series(3);
 
 impl<T: RealField + Copy> Coefficients<T> {
@@ -122,15 +122,22 @@ fn horner<T: RealField + Copy>(coefficients: &[f64], x: T) -> (T, T) {
     })
 }
 
-const fn series(first_factorial: u32) -> [f64; 9] {
-    let mut terms = [1.0; 9];
-    let mut factorial = if first_factorial == 2 { 2.0 } else { 6.0 };
-    let mut k = 0;
-    while k < 9 {
-        terms[k] = if k % 2 == 0 { 1.0 } else { -1.0 } / factorial;
-        let n = (first_factorial + 2 * k as u32) as f64;
-        factorial *= (n + 1.0) * (n + 2.0);
-        k += 1;
+/// (-1)^k / (first + 2k)!
+const fn series(first: usize) -> [f64; 9] {
+    let mut terms = [0.0; 9];
+    let mut reciprocal = 1.0;
+    let mut n = 1;
+    while n <= first + 2 * (terms.len() - 1) {
+        reciprocal /= n as f64;
+        if n >= first && (n - first).is_multiple_of(2) {
+            let k = (n - first) / 2;
+            terms[k] = if k.is_multiple_of(2) {
+                reciprocal
+            } else {
+                -reciprocal
+            };
+        }
+        n += 1;
     }
     terms
 }

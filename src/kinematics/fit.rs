@@ -2,6 +2,9 @@
 
 use nalgebra::DMatrix;
 
+/// Pivots of a scaled Cholesky factor, squared, below which they are rounding.
+const SINGULAR: f64 = 1e-13;
+
 /// A configuration fitted to measured poses.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
@@ -51,6 +54,3 @@ impl Fit {
         Some(covariance)
     }
 }
-
-/// Pivots of a scaled Cholesky factor, squared, that are rounding.
-const SINGULAR: f64 = 1e-13;

@@ -1,7 +1,7 @@
 //! Table II of the paper, repeated: five runs of the robot, three choices of strains.
 //!
-//! Its samples are those of the published tables, three poses each: the base, constructed from
-//! the motor's angle, the ring and the tip; the rod has two equal segments.
+//! A sample has three poses: the rod's base, constructed from the motor's angle, the ring and the
+//! tip, both measured. The rod has two equal segments that end at the tip.
 
 use nalgebra::Vector3;
 use rayon::prelude::*;
@@ -89,8 +89,10 @@ pub struct Row {
     pub optimum_measured: Metrics,
 }
 
-/// Repeats the three rows of a run, in the order of [`SELECTORS`]. Given are for each sample the base's angle (rad) and its three poses, at these
-/// arc lengths (m). Takes a few seconds.
+/// Repeats the three rows of a run, in the order of [`SELECTORS`], in a few seconds.
+///
+/// Given are for each sample the base's angle (rad) and the three poses, and their arc lengths
+/// (m). The paper's samples and poses are those of the published tables.
 ///
 /// # Panics
 /// When there are not as many angles as samples.

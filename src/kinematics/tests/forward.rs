@@ -3,15 +3,12 @@
 mod common;
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
-use std::fs::File;
-use std::io::BufReader;
 
 use auxetica_kinematics::{Pose, Spcs, StrainSelector, Variation};
 use nalgebra::{Matrix4, Rotation3, Vector3, Vector6};
-use npyz::npz::NpzArchive;
 
 use auxetica_kinematics::table2::RUNS;
-use common::{Random, table_path};
+use common::{Random, Steady, array, published_configurations};
 
 /// A rod of one segment, all strains free.
 fn one_segment(length: f64) -> Spcs {
@@ -152,23 +149,19 @@ fn batches_are_the_poses_one_by_one() {
 #[test]
 fn published_configurations_give_the_published_poses() {
     for run in RUNS {
-        let Some(path) = table_path(run.recording) else {
+        let Some(steady) = Steady::read(run.recording) else {
             return;
         };
-        let mut archive = NpzArchive::new(BufReader::new(File::open(path).unwrap())).unwrap();
-        let mut array = |name: &str| -> Vec<f32> {
-            archive.by_name(name).unwrap().unwrap().into_vec().unwrap()
-        };
-        let (configurations, poses) = (array("q_hat_ss"), array("T_hat_ss"));
-        let arc_lengths: Vec<f64> = array("s_ss")[..3].iter().map(|&s| f64::from(s)).collect();
-        let rod = Spcs::uniform(StrainSelector::SHEARED, arc_lengths[2], 2);
+        let configurations = published_configurations(run.recording).unwrap();
+        let published = array(run.recording, "T_hat_ss").unwrap();
+        let rod = Spcs::uniform(StrainSelector::SHEARED, steady.arc_lengths[2], 2);
+        let poses = rod.poses(&configurations, &steady.arc_lengths);
         let mut largest = 0.0f64;
-        for (q, poses) in configurations.chunks_exact(11).zip(poses.chunks_exact(48)) {
-            let q: Vec<f64> = q.iter().map(|&entry| f64::from(entry)).collect();
-            for (point, &s) in arc_lengths.iter().enumerate() {
-                let position = rod.pose(&q, s).translation.vector;
-                let published = Vector3::from_fn(|i, _| f64::from(poses[(4 * i + 3) * 3 + point]));
-                largest = largest.max((position - published).amax());
+        for (poses, published) in poses.iter().zip(published.chunks_exact(48)) {
+            for (point, pose) in poses.iter().enumerate() {
+                let expected =
+                    Vector3::from_fn(|i, _| f64::from(published[(4 * i + 3) * 3 + point]));
+                largest = largest.max((pose.translation.vector - expected).amax());
             }
         }
         println!("{}: positions within {largest:.1e} m", run.name);

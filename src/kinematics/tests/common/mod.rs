@@ -2,10 +2,13 @@
 
 #![allow(dead_code, reason = "each test file uses a part of this")]
 
+use std::fs::File;
+use std::io::BufReader;
 use std::path::{Path, PathBuf};
 
 use auxetica_kinematics::{Observed, Pose};
 use auxetica_recordings::{PublishedTable, Recording, RobotGeometry};
+use npyz::npz::NpzArchive;
 
 /// A folder of the public data, or `None`, with a notice, where they are absent.
 ///
@@ -30,12 +33,25 @@ pub fn data(folder: &str) -> Option<PathBuf> {
 }
 
 /// The published table of a run.
-pub fn table_path(run: &str) -> Option<PathBuf> {
+fn table_path(run: &str) -> Option<PathBuf> {
     Some(
         data("recordings")?
             .join(run)
             .join("inverse_kinematics_results_spcs_n_S-2.npz"),
     )
+}
+
+/// An array of a published table.
+pub fn array(run: &str, name: &str) -> Option<Vec<f32>> {
+    let file = File::open(table_path(run)?).unwrap();
+    let mut archive = NpzArchive::new(BufReader::new(file)).unwrap();
+    Some(archive.by_name(name).unwrap().unwrap().into_vec().unwrap())
+}
+
+/// The configurations that the authors found, 11 degrees of freedom.
+pub fn published_configurations(run: &str) -> Option<Vec<Vec<f64>>> {
+    let wide = |q: &[f32]| q.iter().map(|&entry| f64::from(entry)).collect();
+    Some(array(run, "q_hat_ss")?.chunks_exact(11).map(wide).collect())
 }
 
 /// Steady poses of a run.
