@@ -15,6 +15,7 @@ pub mod compare;
 
 pub use auxetica_config as config;
 pub use auxetica_engine as engine;
+pub use auxetica_kinematics as kinematics;
 pub use auxetica_recordings as recordings;
 
 // A plugin crate that nothing names is not linked, so each shipped one is named here.
