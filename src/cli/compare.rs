@@ -45,6 +45,9 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
         &mut |done| meter.update(done),
     )?;
     drop(meter);
+    if !quiet {
+        eprintln!("{}\n", comparison.audit.join("\n"));
+    }
     let to_stdout = options.json.as_deref() == Some(Path::new("-"));
     if !to_stdout {
         print(&show(&comparison))?;

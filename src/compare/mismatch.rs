@@ -26,6 +26,8 @@ pub struct Comparison {
     pub unsolved: usize,
     /// The bodies.
     pub bodies: Vec<BodyMismatch>,
+    /// What is odd about the recording, in lines.
+    pub audit: Vec<String>,
     /// Time the simulation took \[s\].
     pub seconds: f64,
 }
@@ -77,6 +79,12 @@ impl Comparison {
             skipped: observed.skipped,
             unsolved: simulated.unsolved.len(),
             bodies: vec![body(0), body(1)],
+            audit: observed
+                .audit
+                .to_string()
+                .lines()
+                .map(str::to_owned)
+                .collect(),
             seconds,
         }
     }

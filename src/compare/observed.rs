@@ -3,8 +3,8 @@
 use super::{CompareError, Mode};
 use crate::engine::{Inputs, Series};
 use crate::recordings::{
-    BasePoses, MotorAngles, Pose, PublishedTable, Recording, Reference, RobotGeometry, SettleRule,
-    SteadySamples, authors_samples,
+    Audit, BasePoses, MotorAngles, Pose, PublishedTable, Recording, Reference, RobotGeometry,
+    SettleRule, SteadySamples, authors_samples,
 };
 use std::path::Path;
 
@@ -38,6 +38,8 @@ pub struct Observed {
     angles: (Vec<f64>, Vec<[f64; 4]>),
     /// Dwells without a sample.
     pub skipped: usize,
+    /// What is odd about the recording: gaps, stale frames, jumps, flips.
+    pub audit: Audit,
 }
 
 /// The published table of steady poses beside a recording.
@@ -59,23 +61,23 @@ impl Observed {
                     ))
                 })?;
                 let samples = table.samples(&recording, &geometry)?;
-                Ok(Self::steady(
-                    &recording,
-                    samples,
-                    "published table of steady poses",
-                ))
+                Self::steady(&recording, samples, "published table of steady poses")
             }
             Mode::Steady => {
                 let samples = match kind {
                     SampleKind::Settled => SettleRule::default().samples(&recording, &geometry)?,
                     SampleKind::Authors => authors_samples(&recording, &geometry)?,
                 };
-                Ok(Self::steady(&recording, samples, "motion capture"))
+                Self::steady(&recording, samples, "motion capture")
             }
         }
     }
 
-    fn steady(recording: &Recording, samples: SteadySamples, origin: &'static str) -> Self {
+    fn steady(
+        recording: &Recording,
+        samples: SteadySamples,
+        origin: &'static str,
+    ) -> Result<Self, CompareError> {
         let mut angles = (samples.time.clone(), samples.angles);
         // The poses at rest belong to the first row, before the first sample.
         let rest = recording.time[recording.first_row()];
@@ -83,7 +85,7 @@ impl Observed {
             angles.0.insert(0, rest);
             angles.1.insert(0, [0.0; 4]);
         }
-        Self {
+        Ok(Self {
             name: recording.name.clone(),
             origin,
             rest,
@@ -92,7 +94,8 @@ impl Observed {
             poses: [samples.platform, samples.ring],
             reference: samples.reference,
             skipped: samples.skipped,
-        }
+            audit: Audit::new(recording)?,
+        })
     }
 
     fn every_row(recording: &Recording, geometry: &RobotGeometry) -> Result<Self, CompareError> {
@@ -110,6 +113,7 @@ impl Observed {
             rest: motors.time[0],
             angles: (motors.time, motors.present),
             skipped: 0,
+            audit: Audit::new(recording)?,
         })
     }
 

@@ -1,10 +1,9 @@
 //! Joints between bodies.
 
-use crate::group::Group;
+use crate::group::{BodyId, Group};
 use crate::hooks::Joint;
 use crate::inputs::Moment;
 use crate::site::{Place, Site};
-use crate::system::BodyId;
 use crate::view::Body;
 use nalgebra::Vector3;
 

@@ -7,6 +7,13 @@ use crate::vectors::Vectors;
 use crate::view::{LawView, LoadView, PoseView, RateView};
 use rayon::prelude::*;
 
+/// A body of a [`System`](crate::System).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct BodyId {
+    pub(crate) group: usize,
+    pub(crate) index: usize,
+}
+
 /// A hook, the body of its group that it acts on, and what reports call it.
 pub(crate) struct Hooked<T: ?Sized> {
     pub(crate) name: String,

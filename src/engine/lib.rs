@@ -31,6 +31,7 @@ pub use auxetica_config::{
 };
 pub use bodies::{Cell, End};
 pub use cylinder::Cylinder;
+pub use group::BodyId;
 pub use hooks::{
     Actuation, BoundaryCondition, Callback, CallbackError, Damping, Dwell, Forcing, Joint, RodLaw,
     Setting, Snapshot,
@@ -42,5 +43,5 @@ pub use scenario::Model;
 pub use site::{JointLoad, Place, Site, Wrench};
 pub use steady::{SteadyOptions, SteadyReport, SteadySolver};
 pub use step::BlowUp;
-pub use system::{BodyId, System};
+pub use system::System;
 pub use view::{Body, LawView, LoadView, PoseView, RateView, ReadBody};

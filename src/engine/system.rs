@@ -3,7 +3,7 @@
 use crate::bodies::State;
 use crate::connection::Connection;
 use crate::cylinder::Cylinder;
-use crate::group::{Group, Hooked, each};
+use crate::group::{BodyId, Group, Hooked, each};
 use crate::hooks::{BoundaryCondition, Damping, Forcing, Joint, RodLaw, Setting};
 use crate::inputs::{Inputs, Moment};
 use crate::rod::Rod;
@@ -13,13 +13,6 @@ use crate::view::{Body, ReadBody};
 /// Stations that a group is filled to: large enough to be worth a thread, small enough for its cache. Fixed, so that
 /// results don't depend on the number of threads.
 const GROUP_STATIONS: usize = 512;
-
-/// A body of a [`System`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct BodyId {
-    pub(crate) group: usize,
-    pub(crate) index: usize,
-}
 
 /// Bodies, hooks and inputs at a time: everything that a solver needs.
 #[derive(Default)]

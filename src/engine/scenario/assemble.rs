@@ -1,12 +1,13 @@
 //! From a scenario's text to a model: bodies built, plugins read, names resolved, every problem reported at once.
 
 use super::{Applied, Model, Scenario, Targets, Watcher, targets::name_and_place};
+use crate::group::BodyId;
 use crate::hooks::{
     Actuation, BoundaryCondition, Callback, Damping, Dwell, Forcing, Joint, RodLaw,
 };
 use crate::inputs::Inputs;
 use crate::site::Place;
-use crate::system::{BodyId, System};
+use crate::system::System;
 use crate::view::ReadBody;
 use auxetica_config::{Hook, Problem, Problems, Source, remedy};
 use ron::value::RawValue;

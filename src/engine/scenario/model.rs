@@ -1,9 +1,10 @@
 //! A scenario ready to be solved.
 
 use super::{Marker, Solver};
+use crate::group::BodyId;
 use crate::hooks::{Callback, Dwell};
 use crate::rotation;
-use crate::system::{BodyId, System};
+use crate::system::System;
 use crate::view::{Body, ReadBody};
 use nalgebra::{Matrix3, Vector3};
 
