@@ -44,7 +44,7 @@ pub(super) fn run(quiet: bool) -> Result<(), Failure> {
         return Ok(());
     }
     print(&format!(
-        "\nTry next:\n  auxetica compare scenarios/hsa_robot_recorded.ron --recording {} --set laws[*].apply.factor=0.011\n  \
+        "\nTry next:\n  auxetica compare scenarios/hsa_robot_recorded.ron --recording {} --set 'laws[*].apply.factor=0.011'\n  \
          auxetica run scenarios/hsa_robot.ron\n  auxetica plugins\n  auxetica --help",
         if folder == real {
             real.display().to_string()

@@ -96,8 +96,11 @@ fn describe(summary: &Summary) -> String {
         .iter()
         .map(|(_, r)| r.residual)
         .fold(0.0, f64::max);
+    let states = match summary.steady.len() {
+        1 => "1 steady state".to_owned(),
+        n => format!("{n} steady states"),
+    };
     format!(
-        "{} steady states, {iterations} Newton iterations; largest force out of balance {residual:.1e} N",
-        summary.steady.len()
+        "{states}, {iterations} Newton iterations; largest force out of balance {residual:.1e} N"
     )
 }

@@ -79,18 +79,7 @@ impl System {
     #[cold]
     fn blow_up(&mut self, dt: f64) -> BlowUp {
         let (body, node, what) = self.first_fault().unwrap_or_default();
-        let middle = Moment {
-            time: self.time - dt / 2.0,
-            inputs: &self.inputs,
-        };
-        let culprit = self.groups.iter_mut().find_map(|g| g.culprit(&middle));
-        let culprit = culprit.or_else(|| {
-            let spoils = |joint: &&Connection| {
-                let loads = joint.applied(&self.groups, &middle);
-                !loads.iter().all(|l| finite(l.force) && finite(l.torque))
-            };
-            self.joints.iter().find(spoils).map(|j| j.name.clone())
-        });
+        let culprit = self.culprit(self.time - dt / 2.0);
         BlowUp {
             time: self.time,
             step: self.steps,
@@ -99,6 +88,25 @@ impl System {
             what,
             culprit,
         }
+    }
+
+    /// The first hook whose loads at `time` \[s\] and the present poses aren't finite numbers, if one is to blame.
+    pub(crate) fn culprit(&mut self, time: f64) -> Option<String> {
+        let Self {
+            groups,
+            joints,
+            inputs,
+            ..
+        } = self;
+        let now = Moment { time, inputs };
+        let of_groups = groups.iter_mut().find_map(|g| g.culprit(&now));
+        of_groups.or_else(|| {
+            let spoils = |joint: &&Connection| {
+                let loads = joint.applied(groups, &now);
+                !loads.iter().all(|l| finite(l.force) && finite(l.torque))
+            };
+            joints.iter().find(spoils).map(|j| j.name.clone())
+        })
     }
 
     /// Body, node or element, and fault of the first that isn't sound.

@@ -3,7 +3,6 @@
 use super::tangent::Tangent;
 use super::unknowns::{Freedom, PER_STATION, Unknowns};
 use crate::bodies::Layout;
-use crate::inputs::Moment;
 use crate::system::System;
 use crate::view::ReadBody;
 use nalgebra::{Matrix6, SymmetricEigen, Vector3, Vector6};
@@ -178,18 +177,7 @@ pub(super) fn not_finite(system: &mut System) -> String {
         bad(&body).map(|i| format!("the loads on `{}` at node {i}", body.name()))
     });
     let place = place.unwrap_or_else(|| "loads".into());
-    let now = Moment {
-        time: system.time,
-        inputs: &system.inputs,
-    };
-    let of_groups = system.groups.iter_mut().find_map(|g| g.culprit(&now));
-    let culprit = of_groups.or_else(|| {
-        let joint = system.joints.iter().find(|j| {
-            let loads = j.applied(&system.groups, &now);
-            !(loads.iter()).all(|l| l.force.iter().chain(&l.torque).all(|v| v.is_finite()))
-        });
-        joint.map(|j| j.name.clone())
-    });
+    let culprit = system.culprit(system.time);
     let culprit = culprit.map_or(String::new(), |c| format!(", they come from {c}"));
     format!("{place} are not finite numbers{culprit}")
 }
