@@ -4,8 +4,11 @@
 mod common;
 
 use approx::assert_relative_eq;
-use auxetica::engine::{End, Place, ReadBody, Section};
+use auxetica::engine::{
+    End, LawView, Moment, Place, ReadBody, RodLaw, Section, SteadyOptions, SteadySolver,
+};
 use common::{model, nodes, steady, tip};
+use nalgebra::Vector3;
 
 #[test]
 fn elements_of_their_own_stiffness_stretch_in_series() {
@@ -140,4 +143,74 @@ fn gravity_pulls_with_the_whole_weight_and_at_the_middle_of_rigid_ends() {
     // The cell at x = 0.05 carries the couple of what lies beyond: 50 mm of rod and the end, about its own middle.
     let couple = weight(0.05) * 0.025 + weight(0.05) * (0.05 + 0.025);
     assert_relative_eq!(body.couple(5).norm(), couple, max_relative = 1e-3);
+}
+
+/// Curls a rod by intrinsic curvature, where the file has none.
+struct Curl(f64);
+
+impl RodLaw for Curl {
+    fn rest(&self, _now: &Moment<'_>, rod: &mut LawView<'_>) {
+        for v in rod.cells() {
+            rod.set_rest_kappa(v, Vector3::y() * self.0);
+        }
+    }
+}
+
+#[test]
+fn a_law_sets_rest_strains_as_a_scenario_does() {
+    let rod = |curvature: f64| {
+        model(&format!(
+            r#"(
+                title: "curl",
+                rods: [(
+                    name: "rod", length: 1, elements: 8, radius: 0.01, density: 1000,
+                    material: Rigidities(shear: 100, axial: 100, bending: 0.01, twist: 0.01),
+                    rest_curvature: (0, {curvature}, 0),
+                )],
+                boundary: [(apply: Clamp())],
+                solver: Steady(),
+            )"#
+        ))
+    };
+    let (mut built, mut ruled) = (rod(1.5), rod(0.0));
+    let id = ruled.system.ids()[0];
+    let law = Box::new(Curl(1.5));
+    ruled
+        .system
+        .add_law(id, "curl", law)
+        .expect("a rod takes a law");
+    steady(&mut built, 0.0);
+    steady(&mut ruled, 0.0);
+    assert_relative_eq!(tip(&built, "rod"), tip(&ruled, "rod"), epsilon = 1e-12);
+}
+
+#[test]
+fn a_wall_holds_a_rod_of_any_direction_and_time_may_run_back() {
+    let force = |direction: &str, normal: &str, force: &str| {
+        let mut model = model(&format!(
+            r#"(
+                title: "turned",
+                rods: [(
+                    name: "rod", direction: {direction}, normal: {normal}, length: 1, elements: 8, radius: 0.01,
+                    density: 1000, material: Rigidities(shear: 100, axial: 100, bending: 0.1, twist: 0.1),
+                )],
+                boundary: [(apply: Clamp(cell: Half))],
+                forcing: [(apply: EndForce(force: {force}, scale: Ramp(to: 1, over: 1)))],
+                solver: Steady(),
+            )"#
+        ));
+        let mut solver = SteadySolver::new(&mut model.system, SteadyOptions::default())
+            .unwrap_or_else(|e| panic!("{e}"));
+        [1.0, 0.3].map(|time| {
+            let report = solver.advance(&mut model.system, time);
+            let report = report.unwrap_or_else(|e| panic!("{e}"));
+            (tip(&model, "rod"), report.iterations)
+        })
+    };
+    let upright = force("(0, 0, 1)", "(1, 0, 0)", "(0.2, 0, 0)");
+    let lying = force("(1, 0, 0)", "(0, 1, 0)", "(0, 0.2, 0)");
+    for ((up, steps), (lay, lying_steps)) in upright.into_iter().zip(lying) {
+        assert_relative_eq!(lay, Vector3::new(up.z, up.x, up.y), epsilon = 1e-9);
+        assert_eq!(steps, lying_steps, "the same way there");
+    }
 }

@@ -214,7 +214,8 @@ fn energy_doesnt_drift_in_a_hundred_thousand_steps() {
 }
 
 /// Dilatation divides the couples by its cube and the stresses by itself, without forces in return, so the energy of a
-/// rod that bends and stretches isn't quite constant (at a tenth of this motion it falls by 0.5 % in 10 s). That belongs to the equations: the time step has no part in it.
+/// rod that bends and stretches isn't quite constant (at a tenth of this motion it falls by 0.5 % in 10 s). That belongs to
+/// the equations: the time step has no part in it.
 #[test]
 fn what_energy_varies_is_no_fault_of_the_time_step() {
     let [coarse, fine] =

@@ -1,10 +1,10 @@
 //! A recording made by Auxetica itself, for when no real one is at hand.
 
-use super::{CompareError, simulated};
+use super::{CompareError, observed::motor_inputs, simulated};
 use crate::config::Source;
-use crate::engine::{Inputs, Model, RunError, Series, SteadyOptions, SteadySolver};
+use crate::engine::{Model, RunError, SteadyOptions, SteadySolver};
 use crate::recordings::{Mocap, Pose, RADIANS_PER_TICK, Recording, RobotGeometry, Track, to_world};
-use nalgebra::{Rotation3, UnitQuaternion};
+use nalgebra::UnitQuaternion;
 use std::path::Path;
 
 /// Set-points of the elongation, each held.
@@ -33,14 +33,12 @@ pub fn make_recording(source: &Source, folder: &Path) -> Result<(), CompareError
     let present: Vec<[f64; 4]> = (0..rows)
         .map(|row| signs.map(|s| s * ticks_at(row)))
         .collect();
-    let channel = |i: usize| {
-        let values = present.iter().map(|p| p[i] * RADIANS_PER_TICK).collect();
-        let series = Series::new(time.clone(), values).map_err(CompareError::Unfit)?;
-        Ok((format!("motor_{}", i + 1), series))
-    };
-    let channels: Result<Vec<_>, CompareError> = (0..4).map(channel).collect();
-
-    let mut model = Model::build(source, Some(Inputs::new(channels?)))?;
+    let angles: Vec<_> = present
+        .iter()
+        .map(|ticks| ticks.map(|t| t * RADIANS_PER_TICK))
+        .collect();
+    let inputs = motor_inputs(&time, &angles).map_err(CompareError::Unfit)?;
+    let mut model = Model::build(source, Some(inputs))?;
     let markers = simulated::markers(&model)?;
     model.system.set_time(time[0]);
     let mut solver =
@@ -56,7 +54,7 @@ pub fn make_recording(source: &Source, folder: &Path) -> Result<(), CompareError
     }
     let base = Pose::from_parts(
         nalgebra::Translation3::new(0.0, 0.0, RobotGeometry::default().base_markers),
-        UnitQuaternion::from_rotation_matrix(&Rotation3::identity()),
+        UnitQuaternion::identity(),
     );
     let recording = Recording {
         name: "made by Auxetica".into(),

@@ -129,14 +129,19 @@ impl Observed {
     /// The motor angles \[rad\] as a scenario's inputs `motor_1` to `motor_4`.
     pub fn inputs(&self) -> Result<Inputs, CompareError> {
         let (times, angles) = &self.angles;
-        let channel = |i: usize| {
-            let values = angles.iter().map(|a| a[i]).collect();
-            let series = Series::new(times.clone(), values).map_err(|e| {
-                CompareError::Unfit(format!("motor angles of recording `{}`: {e}", self.name))
-            })?;
-            Ok((format!("motor_{}", i + 1), series))
-        };
-        let channels: Result<Vec<_>, CompareError> = (0..4).map(channel).collect();
-        Ok(Inputs::new(channels?))
+        motor_inputs(times, angles).map_err(|e| {
+            CompareError::Unfit(format!("motor angles of recording `{}`: {e}", self.name))
+        })
     }
+}
+
+/// Inputs `motor_1` to `motor_4` of angles \[rad\] at times \[s\].
+pub(super) fn motor_inputs(times: &[f64], angles: &[[f64; 4]]) -> Result<Inputs, String> {
+    let channel = |i: usize| {
+        let values = angles.iter().map(|a| a[i]).collect();
+        let series = Series::new(times.to_vec(), values)?;
+        Ok((format!("motor_{}", i + 1), series))
+    };
+    let channels: Result<Vec<_>, String> = (0..4).map(channel).collect();
+    channels.map(Inputs::new)
 }

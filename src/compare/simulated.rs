@@ -3,8 +3,8 @@
 use super::{CompareError, Observed};
 use crate::config::Source;
 use crate::engine::run::Progress;
-use crate::engine::scenario::{LARGEST_SHARE, Marker, Solver};
-use crate::engine::{Model, RunError, SteadyOptions, SteadySolver, stability};
+use crate::engine::scenario::Marker;
+use crate::engine::{Model, RunError, SteadySolver};
 use crate::recordings::{MarkerFrame, OffsetZ, Pose};
 use nalgebra::{Rotation3, UnitQuaternion};
 
@@ -20,7 +20,7 @@ pub enum Mode {
 
 /// Names of the markers that recordings know.
 pub const BODIES: [&str; 2] = ["platform", "ring"];
-/// Samples that take longer than this many are worth a progress report each.
+/// Progress is told this many times at most.
 const REPORTS: usize = 200;
 
 /// Poses of the scenario's markers, as motion capture would show them; nothing where no state was found.
@@ -48,14 +48,7 @@ impl Simulated {
         }
         let markers = markers(&model)?;
         model.system.set_time(observed.rest);
-        let tolerance = match model.solver {
-            Solver::Steady { tolerance, .. } => *tolerance,
-            Solver::Dynamic { .. } => SteadyOptions::default().tolerance,
-        };
-        let options = SteadyOptions {
-            tolerance,
-            ..SteadyOptions::default()
-        };
+        let options = model.solver.steady_options();
         let mut solver = SteadySolver::new(&mut model.system, options).map_err(RunError::from)?;
         // Both sides are referred to rest.
         solver
@@ -70,9 +63,9 @@ impl Simulated {
             poses: [Vec::new(), Vec::new()],
             unsolved: Vec::new(),
         };
-        let dt = match mode {
-            Mode::Steady => 0.0,
-            Mode::Dynamic => time_step(&mut model)?,
+        let step = match mode {
+            Mode::Steady => (0.0, 0.0),
+            Mode::Dynamic => model.time_step()?,
         };
         for (i, time) in observed.time.iter().enumerate() {
             if i % observed.time.len().div_ceil(REPORTS) == 0
@@ -84,7 +77,7 @@ impl Simulated {
             let solved = match mode {
                 Mode::Steady => solver.advance(&mut model.system, *time).map(drop),
                 Mode::Dynamic => {
-                    through(&mut model, *time, dt)?;
+                    through(&mut model, *time, step)?;
                     Ok(())
                 }
             };
@@ -98,7 +91,12 @@ impl Simulated {
                 simulated.poses[b].push(shown);
             }
         }
-        Ok(simulated)
+        match simulated.unsolved.first() {
+            Some((_, reason)) if simulated.unsolved.len() == observed.time.len() => Err(
+                CompareError::Unfit(format!("no sample was solved: {reason}")),
+            ),
+            _ => Ok(simulated),
+        }
     }
 }
 
@@ -127,28 +125,13 @@ pub(super) fn pose(model: &Model, marker: &Marker, rest: Option<&Pose>) -> Pose 
     Pose::from_parts(point.into(), rotation * from.inverse())
 }
 
-/// The scenario's own time step, or one that is stable.
-fn time_step(model: &mut Model) -> Result<f64, CompareError> {
-    let given = match model.solver {
-        Solver::Dynamic { dt, .. } => dt.map(|dt| *dt),
-        Solver::Steady { .. } => None,
-    };
-    let guess = stability::wave_time(&model.system);
-    let limit = stability::limit(&mut model.system, guess);
-    let dt = given.unwrap_or(LARGEST_SHARE * limit);
-    if dt > limit {
-        return Err(RunError::Unstable { dt, limit }.into());
-    }
-    Ok(dt)
-}
-
 /// Steps the model to `time`.
-fn through(model: &mut Model, time: f64, dt: f64) -> Result<(), RunError> {
+fn through(model: &mut Model, time: f64, (dt, limit): (f64, f64)) -> Result<(), RunError> {
     let span = time - model.system.time();
     let steps = (span / dt).ceil().max(0.0);
     for _ in 0..steps as u64 {
         model.system.step(span / steps).map_err(|blow_up| {
-            let (blow_up, limit) = (Box::new(blow_up), dt / LARGEST_SHARE);
+            let blow_up = Box::new(blow_up);
             RunError::BlowUp { blow_up, limit, dt }
         })?;
     }

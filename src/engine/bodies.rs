@@ -249,7 +249,7 @@ impl Bodies {
                 rest_kappa: rod.rest_kappa,
             });
         }
-        self.push_layout(&rod.name, first, n, caps)
+        self.push_layout(&rod.name, first, n, caps, directors)
     }
 
     /// Adds a rigid body at rest and returns its index.
@@ -267,10 +267,18 @@ impl Bodies {
             rest_sigma: Vector3::zeros(),
             rest_kappa: Vector3::zeros(),
         });
-        self.push_layout(&cylinder.name, first, 0, [Cap::default(); 2])
+        let caps = [Cap::default(); 2];
+        self.push_layout(&cylinder.name, first, 0, caps, cylinder.director)
     }
 
-    fn push_layout(&mut self, name: &str, first: usize, elements: usize, caps: [Cap; 2]) -> usize {
+    fn push_layout(
+        &mut self,
+        name: &str,
+        first: usize,
+        elements: usize,
+        caps: [Cap; 2],
+        rest: Matrix3<f64>,
+    ) -> usize {
         self.layouts.push(Layout {
             name: name.into(),
             first,
@@ -278,7 +286,7 @@ impl Bodies {
             caps,
             walled: [false; 2],
         });
-        self.walls.push([Matrix3::identity(); 2]);
+        self.walls.push([rest; 2]);
         self.layouts.len() - 1
     }
 

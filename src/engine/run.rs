@@ -3,7 +3,7 @@
 use crate::hooks::{CallbackError, Snapshot};
 use crate::scenario::{LARGEST_SHARE, Model, Solver, Watcher};
 use crate::stability;
-use crate::steady::{NotSteady, SteadyOptions, SteadyReport, SteadySolver};
+use crate::steady::{NotSteady, SteadyReport, SteadySolver};
 use crate::step::BlowUp;
 use crate::system::System;
 use std::ops::ControlFlow;
@@ -85,7 +85,10 @@ impl Model {
         let mut summary = Summary::default();
         self.system.apply_boundaries();
         // Before any callback replaces results: what can't be run leaves them as they are.
-        let step = self.time_step()?;
+        let step = match self.solver {
+            Solver::Dynamic { .. } => self.time_step()?,
+            Solver::Steady { .. } => (0.0, 0.0),
+        };
         let mut started = 0;
         let mut outcome = Ok(());
         for watcher in &mut self.watchers {
@@ -105,9 +108,9 @@ impl Model {
                 Solver::Dynamic { duration, .. } => self
                     .run_dynamic(*duration, step, &mut summary, progress)
                     .inspect(|()| reached(self)),
-                Solver::Steady { at, tolerance } => {
+                Solver::Steady { at, .. } => {
                     let at = at.iter().map(|t| **t).collect();
-                    self.run_steady(at, *tolerance, &mut summary, progress, reached)
+                    self.run_steady(at, &mut summary, progress, reached)
                 }
             };
         }
@@ -122,10 +125,11 @@ impl Model {
         outcome.map(|()| summary)
     }
 
-    /// Time step wanted and stability limit \[s\]; a steady run has none.
-    fn time_step(&mut self) -> Result<(f64, f64), RunError> {
-        let Solver::Dynamic { dt, unstable, .. } = self.solver else {
-            return Ok((0.0, 0.0));
+    /// The scenario's time step, or one that is stable if it names none, and the stability limit \[s\].
+    pub fn time_step(&mut self) -> Result<(f64, f64), RunError> {
+        let (dt, unstable) = match self.solver {
+            Solver::Dynamic { dt, unstable, .. } => (dt, unstable),
+            Solver::Steady { .. } => (None, false),
         };
         let system = &mut self.system;
         // Not sought from `dt`: damping stops all motion over steps that are long enough, which isn't stability.
@@ -181,7 +185,6 @@ impl Model {
     fn run_steady(
         &mut self,
         mut at: Vec<f64>,
-        tolerance: f64,
         summary: &mut Summary,
         progress: &mut Progress<'_>,
         reached: &mut dyn FnMut(&Self),
@@ -192,11 +195,7 @@ impl Model {
         if at.is_empty() {
             at.push(0.0);
         }
-        let options = SteadyOptions {
-            tolerance,
-            ..SteadyOptions::default()
-        };
-        let mut solver = SteadySolver::new(&mut self.system, options)?;
+        let mut solver = SteadySolver::new(&mut self.system, self.solver.steady_options())?;
         for (done, time) in at.iter().enumerate() {
             if progress(done as f64 / at.len() as f64).is_break() {
                 let time = self.system.time();

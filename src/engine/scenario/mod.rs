@@ -9,6 +9,7 @@ pub use bodies::{Caps, CylinderSpec, Material, RodGroup};
 pub use model::{LARGEST_SHARE, Model, Watcher};
 pub use targets::Targets;
 
+use crate::steady::SteadyOptions;
 use auxetica_config::{Finite, NonNegative, Positive, Vec3};
 use ron::value::RawValue;
 use serde::Deserialize;
@@ -141,6 +142,20 @@ pub enum Solver {
         #[serde(default = "tolerance")]
         tolerance: Positive,
     },
+}
+
+impl Solver {
+    /// How steady states are sought; a dynamic scenario has the defaults.
+    pub fn steady_options(&self) -> SteadyOptions {
+        let defaults = SteadyOptions::default();
+        match self {
+            Self::Steady { tolerance, .. } => SteadyOptions {
+                tolerance: **tolerance,
+                ..defaults
+            },
+            Self::Dynamic { .. } => defaults,
+        }
+    }
 }
 
 fn tolerance() -> Positive {

@@ -129,17 +129,19 @@ impl SteadySolver {
         loop {
             let from = system.time;
             let mut to = time;
+            let mut whole = true;
             while self.largest_turn(system, to) > LARGEST_TURN
-                && to - from > 1e-6 * (time - start_time)
+                && (to - from).abs() > 1e-6 * (time - start_time).abs()
             {
                 to = from + (to - from) / 2.0;
+                whole = false;
             }
             if let Err(e) = self.increments(system, to, &mut report) {
                 self.set_poses(system, &start);
                 system.time = start_time;
                 return Err(e);
             }
-            if to >= time {
+            if whole {
                 return Ok(report);
             }
         }
