@@ -10,11 +10,13 @@
 //! }
 //! ```
 
+pub mod characterise;
 pub mod cli;
 pub mod compare;
 
 pub use auxetica_config as config;
 pub use auxetica_engine as engine;
+pub use auxetica_identify as identify;
 pub use auxetica_kinematics as kinematics;
 pub use auxetica_recordings as recordings;
 

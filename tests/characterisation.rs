@@ -6,9 +6,9 @@
 
 mod common;
 
+use auxetica::characterise::{Bench, Experiment, Measured, Quantity};
 use auxetica::config::Source;
 use auxetica::engine::{Model, ReadBody};
-use common::steady;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -30,6 +30,13 @@ fn eight_rows() -> String {
     "HSA_ROD_FPU50_CLOSED_8ROWS".into()
 }
 
+fn bench(rows: u32) -> Bench {
+    let file = format!("scenarios/hsa_rod_{rows}rows.ron");
+    let source =
+        Source::load(Path::new(&file), &[]).unwrap_or_else(|problems| panic!("{problems}"));
+    Bench::new(&source, None, 1.0).unwrap_or_else(|e| panic!("{e}"))
+}
+
 impl Figure {
     fn rows(&self) -> u32 {
         let digits: String = self
@@ -43,90 +50,67 @@ impl Figure {
             .expect("the rod's name has its number of rows")
     }
 
-    /// The torque is given for holding torques, the angle for everything else.
-    fn given_torque(&self) -> bool {
-        self.quantity == "holding_torque"
-    }
-
-    fn reference(&self) -> f64 {
-        if self.given_torque() {
-            self.twist_angle_rad
-        } else {
-            self.value
-        }
-    }
-
-    fn model(&self, more: &[String]) -> Model {
-        let motor = if self.given_torque() {
-            format!("MotorTorque(torque: Constant({}))", self.value)
-        } else {
-            format!("MotorAngle(angle: Constant({}))", self.twist_angle_rad)
-        };
-        let mut sets = vec![format!("boundary[0].apply={motor}"), "callbacks=[]".into()];
-        match self.quantity.as_str() {
-            "spring_constant" => sets.push(
-                "forcing=[(apply: EndForce(force: (0, 0, 1), scale: Table([(9.99999, 0), (10, 1)])))]".into(),
-            ),
-            "blocked_force" => sets.push("boundary[1].apply.position=[Z]".into()),
-            _ => {}
-        }
-        let file = format!("scenarios/hsa_rod_{}rows.ron", self.rows());
-        Source::load(Path::new(&file), &[&sets, more].concat())
-            .and_then(|source| Model::build(&source, None))
-            .unwrap_or_else(|problems| panic!("{problems}"))
-    }
-
-    fn measure(&self, model: &Model) -> f64 {
-        let rod = model
-            .system
-            .body(model.system.find("rod").expect("the rod"));
-        let last = rod.elements() - 1;
-        let length = rod.position(last + 1).z;
-        let tension = rod.stress(last).z / rod.dilatation(last);
-        match self.quantity.as_str() {
-            "holding_torque" => -rod.cells().map(|v| rod.rotation(v).z).sum::<f64>(),
-            "minimum_energy_length" => length,
-            "blocked_force" => -tension,
-            "spring_constant" => {
-                let rest: f64 = (0..=last).map(|e| rod.rest_length(e)).sum();
-                tension / (length - rest)
-            }
-            other => panic!("nothing is known of {other}"),
-        }
+    fn quantity(&self) -> Quantity {
+        let known = Quantity::ALL
+            .into_iter()
+            .find(|q| q.name() == self.quantity);
+        known.unwrap_or_else(|| panic!("nothing is known of {}", self.quantity))
     }
 
     /// Relative difference; absolute where the figure is 0.
-    fn difference(&self, model: &Model) -> f64 {
-        let difference = (self.measure(model) - self.reference()).abs();
+    fn difference(&self, found: f64, published: f64) -> f64 {
+        let difference = (found - published).abs();
         if self.twist_angle_rad == 0.0 && self.value.abs() < 1e-9 {
             difference
         } else {
-            difference / self.reference().abs()
+            difference / published.abs()
         }
     }
 
     fn of_steady_state(&self) -> f64 {
-        let mut model = self.model(&[]);
-        steady(&mut model, 10.0);
-        self.difference(&model)
+        let found = bench(self.rows())
+            .characterise(&[self.twist_angle_rad], &mut |_| ControlFlow::Continue(()));
+        let found = found.unwrap_or_else(|e| panic!("{e}"));
+        let found = found[0]
+            .get(self.quantity())
+            .unwrap_or_else(|reason| panic!("{reason}"));
+        self.difference(found, self.value)
     }
 
-    /// With the damping, duration and time step of the reference.
+    /// With the damping, duration and time step of the reference, and the torque given where that is how it did it.
     fn of_same_run(&self) -> f64 {
+        let quantity = self.quantity();
+        let (angle, torque) = (self.twist_angle_rad, self.value);
+        let (experiment, motor, seconds) = match quantity {
+            Quantity::HoldingTorque => (
+                Experiment::Free,
+                format!("MotorTorque(torque: Constant({torque}))"),
+                10,
+            ),
+            Quantity::MinimumEnergyLength => (Experiment::Free, motor_at(angle), 10),
+            Quantity::SpringConstant => (Experiment::Pulled, motor_at(angle), 20),
+            Quantity::BlockedForce => (Experiment::Blocked, motor_at(angle), 10),
+        };
         let c = match self.rows() {
             4 => 3,
             10 => 2,
             _ => 1,
         };
-        let seconds = if self.quantity == "spring_constant" {
-            20
-        } else {
-            10
-        };
-        let mut model = self.model(&[
-            format!("damping=[(apply: LinearDamping(translational: ({c}, {c}, {c}), rotational: ({c}, {c}, {c})))]"),
+        let mut sets = vec![
+            format!("boundary[0].apply={motor}"),
+            format!(
+                "damping=[(apply: LinearDamping(translational: ({c}, {c}, {c}), rotational: ({c}, {c}, {c})))]"
+            ),
             format!("solver=Dynamic(duration: {seconds}, dt: 5e-5)"),
-        ]);
+        ];
+        if experiment == Experiment::Pulled {
+            // The reference lets the rod come to rest before it pulls.
+            sets.push("forcing[0].apply.scale=Table([(9.99999, 0), (10, 1)])".into());
+        }
+        let mut model = bench(self.rows())
+            .scenario(experiment)
+            .and_then(|source| Model::build(&source.with(&sets)?, None))
+            .unwrap_or_else(|problems| panic!("{problems}"));
         model
             .run(
                 Path::new("."),
@@ -134,8 +118,28 @@ impl Figure {
                 &mut |_| (),
             )
             .unwrap_or_else(|e| panic!("{e}"));
-        self.difference(&model)
+        let seen = Measured::of(&model);
+        let rod = model.system.body(model.system.ids()[0]);
+        let last = rod.elements() - 1;
+        let tension = rod.stress(last).z / rod.dilatation(last);
+        match quantity {
+            Quantity::HoldingTorque => {
+                let turned = -rod.cells().map(|v| rod.rotation(v).z).sum::<f64>();
+                self.difference(turned, angle)
+            }
+            Quantity::MinimumEnergyLength => self.difference(seen.length, self.value),
+            // As the reference reads them off.
+            Quantity::SpringConstant => {
+                let rest: f64 = (0..=last).map(|e| rod.rest_length(e)).sum();
+                self.difference(tension / (seen.length - rest), self.value)
+            }
+            Quantity::BlockedForce => self.difference(-tension, self.value),
+        }
     }
+}
+
+fn motor_at(angle: f64) -> String {
+    format!("MotorAngle(angle: Constant({angle}))")
 }
 
 fn figures(file: &str) -> Option<Vec<Figure>> {

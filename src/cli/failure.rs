@@ -1,8 +1,10 @@
 //! Failures and exit codes: 1 the work failed, 2 the input is wrong, 130 stopped by the user.
 
+use crate::characterise::CharacteriseError;
 use crate::compare::CompareError;
 use crate::config::Problems;
 use crate::engine::RunError;
+use crate::identify::FitError;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -19,6 +21,15 @@ pub enum Failure {
     /// A recording, or its comparison, failed.
     #[error(transparent)]
     Compare(CompareError),
+    /// Measured curves can't be used.
+    #[error(transparent)]
+    Curves(crate::characterise::BadCurves),
+    /// Nothing could be fitted.
+    #[error(transparent)]
+    Fit(FitError),
+    /// The user stopped work of which nothing is kept.
+    #[error("stopped; nothing was written")]
+    Stopped,
     /// A file can't be written.
     #[error(
         "can't write {path}: {source}; check that the folder exists, has room and may be written to"
@@ -56,6 +67,17 @@ impl From<CompareError> for Failure {
     }
 }
 
+impl From<CharacteriseError> for Failure {
+    fn from(e: CharacteriseError) -> Self {
+        match e {
+            CharacteriseError::Scenario(problems) => Self::Scenario(problems),
+            CharacteriseError::Curves(bad) => Self::Curves(bad),
+            CharacteriseError::Fit(FitError::Stopped) | CharacteriseError::Stopped => Self::Stopped,
+            CharacteriseError::Fit(e) => Self::Fit(e),
+        }
+    }
+}
+
 impl Failure {
     pub(super) fn output(path: &Path, source: std::io::Error) -> Self {
         let path = path.into();
@@ -71,10 +93,10 @@ impl Failure {
             other => eprintln!("error: {other}"),
         }
         ExitCode::from(match self {
-            Self::Scenario(_) | Self::Compare(_) | Self::Unknown(_) => 2,
+            Self::Scenario(_) | Self::Compare(_) | Self::Curves(_) | Self::Unknown(_) => 2,
             Self::Run(RunError::Unstable { .. }) => 2,
-            Self::Run(RunError::Interrupted { .. }) => 130,
-            Self::Run(_) | Self::Output { .. } => 1,
+            Self::Stopped | Self::Run(RunError::Interrupted { .. }) => 130,
+            Self::Run(_) | Self::Fit(_) | Self::Output { .. } => 1,
         })
     }
 }

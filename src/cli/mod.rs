@@ -1,5 +1,6 @@
 //! The command line. Results go to stdout, everything else to stderr.
 
+mod characterise;
 mod check;
 mod compare;
 mod default_job;
@@ -40,6 +41,8 @@ enum Command {
     Plugins(plugins::Options),
     /// Run a scenario under a recording's motor angles and show how far both differ, body by body.
     Compare(compare::Options),
+    /// Show the holding torque, length, spring constant and blocked force of a rod against its twist angle.
+    Characterise(characterise::Options),
 }
 
 /// A scenario file and what is changed in it.
@@ -73,6 +76,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> Exi
         Some(Command::Check(options)) => check::run(options, quiet),
         Some(Command::Plugins(options)) => plugins::run(options),
         Some(Command::Compare(options)) => compare::run(options, quiet),
+        Some(Command::Characterise(options)) => characterise::run(options, quiet),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

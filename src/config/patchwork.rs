@@ -56,7 +56,7 @@ impl Piece {
 }
 
 /// The pieces and their sum.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Patchwork {
     pieces: Vec<Piece>,
     text: String,

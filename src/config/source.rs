@@ -80,6 +80,40 @@ impl Source {
         })
     }
 
+    /// This text with `sets` applied to it as well, each `path=value`.
+    ///
+    /// # Errors
+    /// If a path leads nowhere, or brackets and quotes of a value do not match.
+    pub fn with(&self, sets: &[String]) -> Result<Self, Problems> {
+        Self::new(self.name.clone(), self.patchwork.clone(), sets)
+    }
+
+    /// The texts of all values that `path` means, at least one.
+    ///
+    /// # Errors
+    /// If there is no such value: in words why, and after a semicolon what to do.
+    pub fn values(&self, path: &str) -> Result<Vec<&str>, String> {
+        let words = |finding: Finding| match finding.hint {
+            Some(hint) => format!("{}; {hint}", finding.message),
+            None => finding.message,
+        };
+        let (steps, length) = path::read(path).map_err(words)?;
+        if length < path.len() {
+            let rest = &path[length..];
+            return Err(format!(
+                "`{rest}` in the path is not understood; paths look like `laws[*].apply.factor`"
+            ));
+        }
+        let targets = follow::targets(self.text(), &self.root, &steps).map_err(words)?;
+        let value = |target| match target {
+            Target::Replace(span) => Ok(&self.text()[span]),
+            Target::Insert { .. } => Err(format!(
+                "the scenario gives no value at `{path}`; write it there first, or mend the path"
+            )),
+        };
+        targets.into_iter().map(value).collect()
+    }
+
     /// The file or the name given to the text.
     pub fn name(&self) -> &str {
         &self.name

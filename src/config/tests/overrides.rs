@@ -145,3 +145,33 @@ fn all_bad_overrides_are_reported_at_once() {
     let error = set("(a: 1)", &["b.c=1", "d.e=1"]).unwrap_err();
     assert!(error.contains("`b`") && error.contains("`d`"), "{error}");
 }
+
+#[test]
+fn values_are_read_where_a_path_leads() {
+    let text = "(base_is: 1, rods: [(length: 0.1 /* m */), (length: 2e-1)], name: \"a = b\")";
+    let source = Source::from_text("test.ron", text, &["rods[0].length=0.3".to_owned()]).unwrap();
+    assert_eq!(source.values("rods[*].length"), Ok(vec!["0.3", "2e-1"]));
+    assert_eq!(source.values("name"), Ok(vec!["\"a = b\""]));
+    let changed = source.with(&["rods[*].length=5".to_owned()]).unwrap();
+    assert_eq!(changed.values("rods[*].length"), Ok(vec!["5", "5"]));
+    assert_eq!(
+        source.values("rods[0].length"),
+        Ok(vec!["0.3"]),
+        "the first is as it was"
+    );
+    for (path, words) in [
+        (
+            "rods[0].width",
+            "gives no value at `rods[0].width`; write it there first",
+        ),
+        ("rods[2].length", "`rods` has no [2]; it holds [0] to [1]"),
+        (
+            "rods[0].length =",
+            "` =` in the path is not understood; paths look like",
+        ),
+        ("", "a path is missing here; paths look like"),
+    ] {
+        let told = source.values(path).unwrap_err();
+        assert!(told.contains(words), "{path}: {told}");
+    }
+}

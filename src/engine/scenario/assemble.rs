@@ -33,6 +33,7 @@ impl Model {
         builder.joints(&scenario);
         let watchers = builder.watchers(&scenario);
         builder.markers(&scenario);
+        builder.uncertain(&scenario);
         builder.problems.into_result()?;
         Ok(Self {
             title: scenario.title.clone(),
@@ -253,6 +254,19 @@ impl Builder<'_> {
                     &format!("markers[{i}].along"),
                     format!("{} is past the rod's tip; give 0 to 1", *marker.along),
                 );
+            }
+        }
+    }
+
+    fn uncertain(&mut self, scenario: &Scenario<'_>) {
+        for (i, number) in scenario.uncertain.iter().enumerate() {
+            if let Err((field, e)) = number.nominal(self.source) {
+                self.refuse(&format!("uncertain[{i}].{field}"), e);
+            }
+            let earlier = &scenario.uncertain[..i];
+            if earlier.iter().any(|other| other.name == number.name) {
+                let e = format!("the name `{}` is taken; give another", number.name);
+                self.refuse(&format!("uncertain[{i}].name"), e);
             }
         }
     }

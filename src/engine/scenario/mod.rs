@@ -4,10 +4,12 @@ mod assemble;
 mod bodies;
 mod model;
 mod targets;
+mod uncertain;
 
 pub use bodies::{Caps, CylinderSpec, Material, RodGroup};
 pub use model::{LARGEST_SHARE, Model, Watcher};
 pub use targets::Targets;
+pub use uncertain::Uncertain;
 
 use crate::steady::SteadyOptions;
 use auxetica_config::{Finite, NonNegative, Positive, Vec3};
@@ -47,6 +49,9 @@ pub struct Scenario<'a> {
     /// Named points that recordings are compared at.
     #[serde(default)]
     pub markers: Vec<Marker>,
+    /// Numbers that measurements are to tell.
+    #[serde(default)]
+    pub uncertain: Vec<Uncertain>,
     /// How the scenario is solved.
     pub solver: Solver,
     /// What is done with the results.
