@@ -13,6 +13,8 @@
 pub mod characterise;
 pub mod cli;
 pub mod compare;
+pub mod poses;
+pub mod sweep;
 
 pub use auxetica_config as config;
 pub use auxetica_engine as engine;

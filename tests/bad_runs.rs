@@ -32,7 +32,7 @@ fn a_step_beyond_the_stability_limit_leaves_results_as_they_were() {
         let words = [
             &*format!("--set {set}:1:11"),
             "beyond the stability limit of 2.6",
-            "leave it out",
+            "or `Auto`",
         ];
         refused(
             folder.path(),

@@ -11,7 +11,7 @@ type Edit = (&'static str, &'static str, &'static [&'static str]);
 
 /// Faults in the file: each must be told with `broken.ron:LINE`.
 #[rustfmt::skip]
-const EDITS: [Edit; 38] = [
+const EDITS: [Edit; 40] = [
     ("length: 0.1", "length: -0.1", &["broken.ron:5:17", "`rods[0].length`", "found -0.1", "give a number above 0"]),
     ("length: 0.1", "length: 0", &["broken.ron:5:17", "`rods[0].length`", "found 0", "give a number above 0"]),
     ("length: 0.1", "length: \"long\"", &["broken.ron:5:17", "expected a number", "for example 0.5"]),
@@ -42,7 +42,9 @@ const EDITS: [Edit; 38] = [
     ("forcing: [(apply", "forcing: [(on: \"rood\", apply", &["broken.ron:12:20", "`forcing[0].on`", "no body named `rood`", "did you mean `rod`?"]),
     ("translational: (10,", "translational: (-10,", &["broken.ron:13:23", "can't be negative", "give 0 or more"]),
     ("Dynamic(", "Dinamic(", &["broken.ron:14:13", "`Dinamic`", "did you mean `Dynamic`?"]),
-    ("duration: 0.02", "duration: 0.02, dt: 1", &["broken.ron:14:41", "`solver.dt`", "beyond the stability limit", "leave it out"]),
+    ("duration: 0.02", "duration: 0.02, dt: 1", &["broken.ron:14:41", "`solver.dt`", "beyond the stability limit", "`Auto`"]),
+    ("duration: 0.02", "duration: 0.02, dt: Atuo", &["broken.ron:14:41", "`solver.dt`", "found `Atuo`", "did you mean `Auto`?"]),
+    ("duration: 0.02", "duration: 0.02, dt: -1e-6", &["broken.ron:14:41", "`solver.dt`", "found -0.000001", "give a number above 0"]),
     ("every: 0.001", "every: 0", &["broken.ron:15:25", "`callbacks[0].every`", "give a number above 0"]),
     ("Csv(file", "Csv(quantities: [Position, Position], file", &["broken.ron:15:55", "Position is named twice", "name it once"]),
     ("solver:", "markers: [(name: \"tip\", on: \"rod\", along: 1.5)], solver:", &["broken.ron:14:47", "`markers[0].along`", "past the rod's tip", "give 0 to 1"]),

@@ -228,3 +228,40 @@ fn without_arguments_or_data_it_makes_a_recording() {
     );
     assert!(folder.path().join("out/made_by_auxetica").is_dir());
 }
+
+#[test]
+fn check_tells_the_stability_limit_and_what_sets_it() {
+    let folder = small();
+    let text = works(folder.path(), &["check", "small.ron"]);
+    let words = ["stability limit 2.6", "set by bending", "most in `rod`"];
+    assert!(words.iter().all(|w| text.contains(w)), "{text}");
+    // A joint that is stiffer than the rod takes over.
+    let mut arguments = vec!["check", "small.ron"];
+    for set in program::JOINED {
+        arguments.extend(["--set", set]);
+    }
+    let text = works(folder.path(), &arguments);
+    assert!(
+        text.contains("set by SpringDamper (joints[0].apply)"),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_time_step_close_to_the_limit_is_warned_of() {
+    let folder = small();
+    let run = |dt| run(folder.path(), &["run", "small.ron", "--set", dt]);
+    let close = run("solver.dt=2.55e-4");
+    assert!(close.status.success());
+    assert!(
+        stderr(&close).starts_with("warning: the time step"),
+        "{}",
+        stderr(&close)
+    );
+    assert!(stdout(&close).contains("close to it"), "{}", stdout(&close));
+    for dt in ["solver.dt=Auto", "solver.dt=1e-4"] {
+        let good = run(dt);
+        assert!(stderr(&good).is_empty(), "{}", stderr(&good));
+        assert!(!stdout(&good).contains("close to it"), "{}", stdout(&good));
+    }
+}

@@ -3,8 +3,8 @@
 mod common;
 
 use auxetica::config::Source;
+use auxetica::engine::Model;
 use auxetica::engine::scenario::Solver;
-use auxetica::engine::{Model, stability};
 use std::path::Path;
 
 const STEPS: usize = 50;
@@ -20,13 +20,11 @@ fn solve(file: &Path) -> Result<(), String> {
                 .or(model.dwells.first().map(|dwell| dwell.time));
             common::steady(&mut model, first.unwrap_or(0.0));
         }
-        Solver::Dynamic { dt, .. } => {
-            let system = &mut model.system;
-            system.apply_boundaries();
-            let guess = stability::wave_time(system);
-            let dt = dt.map_or_else(|| 0.9 * stability::limit(system, guess), |dt| *dt);
+        Solver::Dynamic { .. } => {
+            let dt = model.time_step().map_err(|e| e.to_string())?.dt;
+            model.system.apply_boundaries();
             for _ in 0..STEPS {
-                system.step(dt).map_err(|e| e.to_string())?;
+                model.system.step(dt).map_err(|e| e.to_string())?;
             }
         }
     }

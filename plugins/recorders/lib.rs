@@ -23,11 +23,13 @@ mod csv_table;
 mod files;
 mod layout;
 mod npz_arrays;
+mod parquet_file;
 mod parquet_table;
 mod quantity;
 mod rows;
 
 pub use csv_table::Csv;
 pub use npz_arrays::Npz;
+pub use parquet_file::{Kind, ParquetFile, Value};
 pub use parquet_table::Parquet;
 pub use quantity::Quantity;

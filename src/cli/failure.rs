@@ -5,6 +5,7 @@ use crate::compare::CompareError;
 use crate::config::Problems;
 use crate::engine::RunError;
 use crate::identify::FitError;
+use crate::sweep::SweepError;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -30,6 +31,17 @@ pub enum Failure {
     /// The user stopped work of which nothing is kept.
     #[error("stopped; nothing was written")]
     Stopped,
+    /// A sweep was planned badly, or could not be kept.
+    #[error(transparent)]
+    Sweep(SweepError),
+    /// Some jobs of a sweep failed.
+    #[error("{failed} of {jobs} jobs failed; the column `reason` of the table tells why")]
+    Jobs {
+        /// How many.
+        failed: usize,
+        /// Of how many.
+        jobs: usize,
+    },
     /// A file can't be written.
     #[error(
         "can't write {path}: {source}; check that the folder exists, has room and may be written to"
@@ -78,6 +90,15 @@ impl From<CharacteriseError> for Failure {
     }
 }
 
+impl From<SweepError> for Failure {
+    fn from(e: SweepError) -> Self {
+        match e {
+            SweepError::Scenario(problems) => Self::Scenario(problems),
+            other => Self::Sweep(other),
+        }
+    }
+}
+
 impl Failure {
     pub(super) fn output(path: &Path, source: std::io::Error) -> Self {
         let path = path.into();
@@ -95,8 +116,14 @@ impl Failure {
         ExitCode::from(match self {
             Self::Scenario(_) | Self::Compare(_) | Self::Curves(_) | Self::Unknown(_) => 2,
             Self::Run(RunError::Unstable { .. }) => 2,
-            Self::Stopped | Self::Run(RunError::Interrupted { .. }) => 130,
-            Self::Run(_) | Self::Fit(_) | Self::Output { .. } => 1,
+            Self::Stopped
+            | Self::Run(RunError::Interrupted { .. })
+            | Self::Sweep(SweepError::Interrupted { .. }) => 130,
+            Self::Sweep(
+                SweepError::File { .. } | SweepError::Table(_) | SweepError::Missing { .. },
+            ) => 1,
+            Self::Sweep(_) => 2,
+            Self::Run(_) | Self::Fit(_) | Self::Output { .. } | Self::Jobs { .. } => 1,
         })
     }
 }

@@ -9,6 +9,7 @@ mod plugins;
 mod progress;
 mod run;
 mod states;
+mod sweep;
 mod table;
 
 use clap::{Args, Parser, Subcommand};
@@ -43,6 +44,10 @@ enum Command {
     Compare(compare::Options),
     /// Show the holding torque, length, spring constant and blocked force of a rod against its twist angle.
     Characterise(characterise::Options),
+    /// Run a scenario with many parameters and put all that comes of it into one table.
+    Sweep(sweep::Options),
+    /// Make the table of a sweep whose shares were done apart.
+    Merge(sweep::MergeOptions),
 }
 
 /// A scenario file and what is changed in it.
@@ -77,6 +82,8 @@ pub fn main_with(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> Exi
         Some(Command::Plugins(options)) => plugins::run(options),
         Some(Command::Compare(options)) => compare::run(options, quiet),
         Some(Command::Characterise(options)) => characterise::run(options, quiet),
+        Some(Command::Sweep(options)) => sweep::run(options, quiet),
+        Some(Command::Merge(options)) => sweep::merge(options),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

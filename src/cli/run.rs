@@ -1,10 +1,11 @@
 //! `auxetica run`
 
+use super::check::too_long;
 use super::progress::Meter;
 use super::states::States;
 use super::{Failure, ScenarioArgs, print, write_whole};
 use crate::config::Source;
-use crate::engine::scenario::Watcher;
+use crate::engine::scenario::{Solver, StepSize, Watcher};
 use crate::engine::{Body, Callback, CallbackError, Model, RunError, Snapshot, Summary};
 use std::path::{Path, PathBuf};
 
@@ -33,6 +34,15 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
             callback: Box::new(KeepScenario(source.text().to_owned())),
         };
         model.watchers.insert(0, keeper);
+    }
+    if let Solver::Dynamic { .. } = model.solver
+        && let Some(warning) = model
+            .time_step()
+            .map_err(|e| at_its_place(e, &source))?
+            .warning()
+        && !quiet
+    {
+        eprintln!("warning: {warning}");
     }
     let mut states = States::new(&model);
     let mut meter = Meter::new("solving", quiet);
@@ -72,22 +82,24 @@ impl Callback for KeepScenario {
     }
 }
 
-/// A time step that is too long is a problem of the scenario.
 fn at_its_place(error: RunError, source: &Source) -> Failure {
-    let RunError::Unstable { .. } = error else {
-        return error.into();
-    };
-    let message = error.to_string();
-    let (what, remedy) = message.split_once("; ").unwrap_or((&message, ""));
-    let problem = source.problem("solver.dt", what).with_hint(remedy);
-    Failure::Scenario(problem.into())
+    match error {
+        RunError::Unstable { .. } => Failure::Scenario(too_long(&error, source).into()),
+        other => other.into(),
+    }
 }
 
 fn describe(summary: &Summary) -> String {
     if summary.steady.is_empty() {
+        let StepSize { dt, limit } = summary.step;
         return format!(
-            "{} steps of {:.4e} s (the stability limit at the start is {:.4e} s)",
-            summary.steps, summary.dt, summary.stability_limit
+            "{} steps of {dt:.4e} s, {:.2} of the stability limit of {limit:.4e} s at the start{}",
+            summary.steps,
+            dt / limit,
+            summary
+                .step
+                .warning()
+                .map_or("", |_| ": close to it, see `solver.dt`")
         );
     }
     let iterations: usize = summary.steady.iter().map(|(_, r)| r.iterations).sum();

@@ -3,7 +3,7 @@
 use super::{CompareError, Observed};
 use crate::config::Source;
 use crate::engine::run::Progress;
-use crate::engine::scenario::Marker;
+use crate::engine::scenario::{Marker, StepSize};
 use crate::engine::{Model, RunError, SteadySolver};
 use crate::recordings::{MarkerFrame, OffsetZ, Pose};
 use nalgebra::{Rotation3, UnitQuaternion};
@@ -64,7 +64,7 @@ impl Simulated {
             unsolved: Vec::new(),
         };
         let step = match mode {
-            Mode::Steady => (0.0, 0.0),
+            Mode::Steady => StepSize::default(),
             Mode::Dynamic => model.time_step()?,
         };
         for (i, time) in observed.time.iter().enumerate() {
@@ -126,7 +126,7 @@ pub(super) fn pose(model: &Model, marker: &Marker, rest: Option<&Pose>) -> Pose 
 }
 
 /// Steps the model to `time`.
-fn through(model: &mut Model, time: f64, (dt, limit): (f64, f64)) -> Result<(), RunError> {
+fn through(model: &mut Model, time: f64, StepSize { dt, limit }: StepSize) -> Result<(), RunError> {
     let span = time - model.system.time();
     let steps = (span / dt).ceil().max(0.0);
     for _ in 0..steps as u64 {

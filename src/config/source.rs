@@ -124,6 +124,10 @@ impl Source {
         self.patchwork.text()
     }
 
+    pub(crate) fn root(&self) -> &Node {
+        &self.root
+    }
+
     /// Reads the whole text as one typed value, which may hold `&RawValue` where plugins go.
     ///
     /// # Errors

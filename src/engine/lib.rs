@@ -8,6 +8,7 @@
 
 pub mod bodies;
 mod connection;
+pub mod critical;
 pub mod cylinder;
 mod energy;
 mod group;

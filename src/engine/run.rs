@@ -1,8 +1,7 @@
 //! Solving a model from start to end, with its callbacks.
 
 use crate::hooks::{CallbackError, Snapshot};
-use crate::scenario::{LARGEST_SHARE, Model, Solver, Watcher};
-use crate::stability;
+use crate::scenario::{LARGEST_SHARE, Model, Solver, StepSize, Watcher};
 use crate::steady::{NotSteady, SteadyReport, SteadySolver};
 use crate::step::BlowUp;
 use crate::system::System;
@@ -30,7 +29,7 @@ pub enum RunError {
     /// The time step is too long.
     #[error(
         "the time step of {dt:.3e} s is beyond the stability limit of {limit:.3e} s at the start; give `solver.dt` \
-         {:.3e} or less, leave it out, or set `solver.unstable: true` to go on all the same",
+         {:.3e} or less or `Auto`, or set `solver.unstable: true` to go on all the same",
         limit * LARGEST_SHARE
     )]
     Unstable {
@@ -60,10 +59,8 @@ pub struct Summary {
     pub time: f64,
     /// Steps of a dynamic run.
     pub steps: u64,
-    /// Time step \[s\] of a dynamic run.
-    pub dt: f64,
-    /// Stability limit \[s\] of a dynamic run, at its start.
-    pub stability_limit: f64,
+    /// Time step and stability limit of a dynamic run.
+    pub step: StepSize,
     /// Time \[s\] and cost of each steady state.
     pub steady: Vec<(f64, SteadyReport)>,
     /// Files written by callbacks.
@@ -87,7 +84,7 @@ impl Model {
         // Before any callback replaces results: what can't be run leaves them as they are.
         let step = match self.solver {
             Solver::Dynamic { .. } => self.time_step()?,
-            Solver::Steady { .. } => (0.0, 0.0),
+            Solver::Steady { .. } => StepSize::default(),
         };
         let mut started = 0;
         let mut outcome = Ok(());
@@ -125,33 +122,17 @@ impl Model {
         outcome.map(|()| summary)
     }
 
-    /// The scenario's time step, or one that is stable if it names none, and the stability limit \[s\].
-    pub fn time_step(&mut self) -> Result<(f64, f64), RunError> {
-        let (dt, unstable) = match self.solver {
-            Solver::Dynamic { dt, unstable, .. } => (dt, unstable),
-            Solver::Steady { .. } => (None, false),
-        };
-        let system = &mut self.system;
-        // Not sought from `dt`: damping stops all motion over steps that are long enough, which isn't stability.
-        let limit = stability::limit(system, stability::wave_time(system));
-        let dt = dt.map_or(limit * LARGEST_SHARE, |dt| *dt);
-        if dt > limit && !unstable {
-            return Err(RunError::Unstable { dt, limit });
-        }
-        Ok((dt, limit))
-    }
-
     fn run_dynamic(
         &mut self,
         duration: f64,
-        (wanted, limit): (f64, f64),
+        StepSize { dt: wanted, limit }: StepSize,
         summary: &mut Summary,
         progress: &mut Progress<'_>,
     ) -> Result<(), RunError> {
         let system = &mut self.system;
         let steps = (duration / wanted).ceil().max(1.0);
         let dt = duration / steps;
-        (summary.dt, summary.stability_limit) = (dt, limit);
+        summary.step = StepSize { dt, limit };
         let start = system.time();
         let mut next: Vec<f64> = vec![start; self.watchers.len()];
         for step in 0..=steps as u64 {

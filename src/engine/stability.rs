@@ -15,11 +15,17 @@ const SIZE: f64 = 1e-7;
 /// Mean growth a step of a small perturbation of the present state under time steps of `dt` \[s\], about the motion
 /// that the state would make. Above 1 by more than a percent: unstable. The system is left as it was.
 pub fn growth(system: &mut System, dt: f64) -> f64 {
+    follow(system, dt).map_or(f64::INFINITY, |(growth, _)| growth)
+}
+
+/// Mean growth a step, and the perturbation after the last, whose shape is that of the fastest growing mode; nothing
+/// if it blows up at once.
+pub(crate) fn follow(system: &mut System, dt: f64) -> Option<(f64, Vec<f64>)> {
     let start = system.save();
     let scale = mean_element_length(system);
     if system.step(dt).is_err() {
         system.restore(&start);
-        return f64::INFINITY;
+        return None;
     }
     let end = system.save();
     let mut perturbation = seed(system.stations() * 12);
@@ -30,14 +36,14 @@ pub fn growth(system: &mut System, dt: f64) -> f64 {
         displace(system, &perturbation, scale, dt);
         if system.step(dt).is_err() {
             system.restore(&start);
-            return f64::INFINITY;
+            return None;
         }
         perturbation = difference(system, &end, scale, dt);
         let norm = perturbation.iter().map(|v| v * v).sum::<f64>().sqrt();
         if norm == 0.0 {
             // everything is held or damped at once
             system.restore(&start);
-            return 0.0;
+            return Some((0.0, perturbation));
         }
         if step >= STEPS / 2 {
             logarithm += (norm / SIZE).ln();
@@ -46,7 +52,7 @@ pub fn growth(system: &mut System, dt: f64) -> f64 {
         perturbation.iter_mut().for_each(|v| *v *= SIZE / norm);
     }
     system.restore(&start);
-    (logarithm / f64::from(counted)).exp()
+    Some(((logarithm / f64::from(counted)).exp(), perturbation))
 }
 
 /// Whether time steps of `dt` \[s\] are stable about the present state.
@@ -93,7 +99,7 @@ pub fn wave_time(system: &System) -> f64 {
     if time.is_finite() { time } else { 1e-3 }
 }
 
-fn mean_element_length(system: &System) -> f64 {
+pub(crate) fn mean_element_length(system: &System) -> f64 {
     let lengths = system.groups.iter().flat_map(|g| {
         let b = &g.bodies;
         let stations = b.layouts().iter().flat_map(|l| l.element_stations());
@@ -118,8 +124,9 @@ fn seed(n: usize) -> Vec<f64> {
     numbers
 }
 
-/// Adds a perturbation, 12 numbers a station: displacement, velocity, rotation, angular velocity, rates times `dt`.
-fn displace(system: &mut System, by: &[f64], scale: f64, dt: f64) {
+/// Adds a perturbation, 12 numbers a station: displacement, velocity, rotation, angular velocity; lengths are in
+/// `scale` and rates are times `dt`.
+pub(crate) fn displace(system: &mut System, by: &[f64], scale: f64, dt: f64) {
     let mut rest = by.chunks_exact(3).map(Vector3::from_column_slice);
     for group in &mut system.groups {
         let state = &mut group.bodies.state;

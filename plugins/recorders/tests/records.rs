@@ -62,7 +62,7 @@ fn parquet_holds_the_long_table() {
     for row in reader.get_row_iter(None).unwrap() {
         let (names, fields): (Vec<_>, Vec<_>) = row.unwrap().into_columns().into_iter().unzip();
         assert_eq!(names, COLUMNS);
-        let [time, Field::Str(body), Field::Int(index), values @ ..] = &fields[..] else {
+        let [time, Field::Str(body), Field::Long(index), values @ ..] = &fields[..] else {
             panic!("{fields:?}");
         };
         let values = values.iter().map(number).collect();

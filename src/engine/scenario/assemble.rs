@@ -42,6 +42,7 @@ impl Model {
             dwells,
             markers: scenario.markers,
             watchers,
+            stability_limit: None,
         })
     }
 }

@@ -4,11 +4,13 @@ mod assemble;
 mod bodies;
 mod model;
 mod targets;
+mod time_step;
 mod uncertain;
 
 pub use bodies::{Caps, CylinderSpec, Material, RodGroup};
-pub use model::{LARGEST_SHARE, Model, Watcher};
+pub use model::{Model, Watcher};
 pub use targets::Targets;
+pub use time_step::{LARGEST_SHARE, StepSize, TimeStep};
 pub use uncertain::Uncertain;
 
 use crate::steady::SteadyOptions;
@@ -130,9 +132,9 @@ pub enum Solver {
     Dynamic {
         /// Duration \[s\].
         duration: Positive,
-        /// Time step \[s\]; by default 0.9 of the stability limit at the start.
+        /// Time step \[s\], or `Auto` for 0.9 of the stability limit at the start.
         #[serde(default)]
-        dt: Option<Positive>,
+        dt: TimeStep,
         /// Whether a time step beyond the stability limit is taken all the same.
         #[serde(default)]
         unstable: bool,

@@ -8,9 +8,6 @@ use crate::system::System;
 use crate::view::{Body, ReadBody};
 use nalgebra::{Matrix3, Vector3};
 
-/// Share of the stability limit that a time step is chosen at when the scenario names none.
-pub const LARGEST_SHARE: f64 = 0.9;
-
 /// A callback with its bodies and its clock.
 pub struct Watcher {
     /// Name of the plugin and place in the scenario, for reports.
@@ -37,6 +34,8 @@ pub struct Model {
     pub markers: Vec<Marker>,
     /// Callbacks.
     pub watchers: Vec<Watcher>,
+    /// Stability limit \[s\] at the start, once it has been asked for.
+    pub(super) stability_limit: Option<f64>,
 }
 
 impl Model {
