@@ -48,7 +48,8 @@ fn a_step_beyond_the_stability_limit_leaves_results_as_they_were() {
 #[test]
 fn a_blow_up_says_when_where_and_why_and_keeps_its_rows() {
     let folder = small();
-    let mut arguments = vec!["run", "small.ron", "--set", "callbacks[0].on=\"rod\""];
+    // quiet: who insists on an unstable step is warned of it first
+    let mut arguments = vec!["run", "-q", "small.ron", "--set", "callbacks[0].on=\"rod\""];
     for set in JOINED {
         arguments.extend(["--set", set]);
     }
@@ -85,7 +86,7 @@ fn a_rod_that_is_no_rod_any_more_has_blown_up() {
         "forcing[0].apply=EndForce(force: (1e5, 0, 0))",
     ] {
         let folder = small();
-        let mut arguments = vec!["run", "small.ron", "--set", "solver.unstable=true"];
+        let mut arguments = vec!["run", "-q", "small.ron", "--set", "solver.unstable=true"];
         arguments.extend(["--set", "solver.duration=10", "--set", set]);
         let words = ["blew up at t = ", "body `rod`, node ", "its element"];
         refused(folder.path(), &arguments, 1, &words);

@@ -98,7 +98,7 @@ fn an_interrupted_sweep_goes_on() {
             "--out",
             out,
         ];
-        let sets = ["sweep", "small.ron", "--set", "solver.duration=0.5"];
+        let sets = ["sweep", "small.ron", "--set", "solver.duration=3"];
         sets.into_iter().chain(grid).collect::<Vec<_>>()
     };
     let mut child = command(folder.path(), &long("stopped"))
