@@ -1,12 +1,13 @@
-//! The auxetic trajectory of Stölzle et al. 2023, section II-B.
+//! The auxetic law of Stölzle et al. 2023, section II-B: lengths and rigidities follow the twist.
 
+use crate::trajectory::{Links, Trajectory};
 use auxetica_engine::{Finite, LawView, Moment, NonNegative, ReadBody, RodLaw, Setting, register};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which way the rod must be twisted to lengthen.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
 pub enum Handedness {
     /// h = +1: a motor that turns the start by a positive angle lengthens the rod.
     Right,
@@ -15,7 +16,9 @@ pub enum Handedness {
 }
 
 impl Handedness {
-    fn sign(self) -> f64 {
+    /// h of the paper: +1 or -1.
+    #[must_use]
+    pub fn sign(self) -> f64 {
         match self {
             Self::Right => 1.0,
             Self::Left => -1.0,
@@ -51,27 +54,30 @@ pub struct Slopes {
     pub twist: f64,
 }
 
-fn paper_factor() -> NonNegative {
-    NonNegative::new(0.01).expect("the paper's factor is positive")
-}
+/// Extension factor of the paper's robot [m/rad] (section II-E).
+const PAPER_FACTOR: f64 = 0.01;
 
 /// The auxetic law: the rest length of each element follows the twist along the rod's handedness,
 /// `rest = (1 + eps) printed`, `eps = clamp(factor * winding twist, eps_min, eps_max)`; twist stays referred to the
-/// printed length.
+/// printed length. Rods printed semi-closed or open have `links` instead of a factor.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Auxetic {
     /// Which way of twisting lengthens the rod.
     handedness: Handedness,
-    /// Extension factor C_eps [m/rad]; by default that of the paper's robot (section II-E).
-    #[serde(default = "paper_factor")]
-    factor: NonNegative,
-    /// Smallest extension [-]; 0 for closed HSAs, which only lengthen.
+    /// Extension factor C_eps [m/rad]; 0.01 if left out, that of the paper's robot (section II-E).
     #[serde(default)]
-    eps_min: Finite,
+    factor: Option<NonNegative>,
+    /// Smallest extension [-]; 0 if left out, for closed HSAs, which only lengthen.
+    #[serde(default)]
+    eps_min: Option<Finite>,
     /// Largest extension [-]; unlimited if left out.
     #[serde(default)]
     eps_max: Option<NonNegative>,
+    /// Leaning links instead of `factor`, `eps_min` and `eps_max`, for semi-closed and open HSAs: the length goes with
+    /// the sine of their angle, which follows the twist.
+    #[serde(default)]
+    links: Option<Links>,
     /// How twist is averaged from cells to elements.
     #[serde(default)]
     averaging: Averaging,
@@ -91,28 +97,39 @@ register!(
 );
 
 impl Auxetic {
+    fn trajectory(&self) -> Trajectory {
+        self.links.map_or_else(
+            || Trajectory::Linear {
+                factor: self.factor.map_or(PAPER_FACTOR, |factor| *factor),
+                least: self.eps_min.map_or(0.0, |least| *least),
+                most: self.eps_max.map_or(f64::INFINITY, |most| *most),
+            },
+            Trajectory::from,
+        )
+    }
+
     /// Twist along the handedness of cell `v` [rad/m]: the motor turns the start, so twist and angle are opposite.
     fn winding(&self, rod: &LawView<'_>, v: usize) -> f64 {
         -self.handedness.sign() * rod.twist(v)
     }
 
-    /// Winding twist of element `e` for its rest length.
-    fn of_element(&self, rod: &LawView<'_>, e: usize) -> f64 {
-        let cells = rod.cells();
-        let (mut sum, mut count) = (0.0, 0);
-        for v in [e, e + 1] {
-            if cells.contains(&v) {
-                sum += self.winding(rod, v);
-                count += 1;
-            }
-        }
+    /// Share that element `e` has of the twist of each of its cells that exist.
+    fn share(&self, rod: &LawView<'_>, e: usize) -> f64 {
+        let whole = rod.cells().contains(&e) && rod.cells().contains(&(e + 1));
         match self.averaging {
-            Averaging::Mean if count == 1 => sum,
-            _ => sum / 2.0,
+            Averaging::Mean if !whole => 1.0,
+            _ => 0.5,
         }
     }
 
-    /// Winding twist of element `e` for its rigidities, never negative.
+    /// Winding twist of element `e` for its rest length [rad/m].
+    fn of_element(&self, rod: &LawView<'_>, e: usize) -> f64 {
+        let cells = [e, e + 1].into_iter().filter(|v| rod.cells().contains(v));
+        let sum: f64 = cells.map(|v| self.winding(rod, v)).sum();
+        sum * self.share(rod, e)
+    }
+
+    /// Winding twist of element `e` for its rigidities [rad/m], never negative.
     fn for_rigidity(&self, rod: &LawView<'_>, e: usize) -> f64 {
         let twist = match self.averaging {
             Averaging::Reference => {
@@ -128,14 +145,6 @@ impl Auxetic {
         };
         twist.max(0.0)
     }
-
-    fn extension(&self, rod: &LawView<'_>, e: usize) -> f64 {
-        (*self.factor * self.of_element(rod, e)).clamp(*self.eps_min, self.eps_max())
-    }
-
-    fn eps_max(&self) -> f64 {
-        self.eps_max.map_or(f64::INFINITY, |most| *most)
-    }
 }
 
 impl RodLaw for Auxetic {
@@ -146,8 +155,9 @@ impl RodLaw for Auxetic {
             bending,
             twist,
         } = self.slopes;
+        let trajectory = self.trajectory();
         for e in 0..rod.elements() {
-            let extension = self.extension(rod, e);
+            let extension = trajectory.extension(self.of_element(rod, e));
             rod.set_rest_length(e, rod.reference_length(e) * (1.0 + extension));
             if shear != 0.0 || axial != 0.0 {
                 let change = Vector3::new(shear, shear, axial) * self.for_rigidity(rod, e);
@@ -167,33 +177,45 @@ impl RodLaw for Auxetic {
         if !self.reciprocal {
             return;
         }
-        let gain = self.handedness.sign() * *self.factor;
+        let trajectory = self.trajectory();
         for v in rod.cells() {
             let neighbours = [v.checked_sub(1), (v < rod.elements()).then_some(v)];
-            let mut axial = 0.0;
+            let mut couple = 0.0;
             for e in neighbours.into_iter().flatten() {
-                let free = *self.factor * self.of_element(rod, e);
-                if (*self.eps_min..self.eps_max()).contains(&free) {
-                    axial += rod.stress(e).z * rod.dilatation(e) / 2.0;
-                }
+                let slope = trajectory.slope(self.of_element(rod, e));
+                // the virtual work of the element's force on its rest length, per turn of the cell
+                let lengthening = slope * self.share(rod, e) * rod.reference_length(e);
+                couple += lengthening / rod.twist_length(v) * rod.stress(e).z * rod.dilatation(e);
             }
-            rod.add_couple(v, Vector3::z() * (gain * axial));
+            rod.add_couple(v, Vector3::z() * (self.handedness.sign() * couple));
         }
     }
 
     fn check(&self, _setting: &Setting<'_>) -> Result<(), String> {
-        if *self.eps_min > self.eps_max() {
-            return Err(format!(
-                "eps_min {} exceeds eps_max {}; give a smaller eps_min or a larger eps_max",
-                *self.eps_min,
-                self.eps_max()
-            ));
+        if let Some(links) = self.links {
+            let linear = [
+                ("factor", self.factor.is_some()),
+                ("eps_min", self.eps_min.is_some()),
+                ("eps_max", self.eps_max.is_some()),
+            ];
+            if let Some((name, _)) = linear.iter().find(|(_, given)| *given) {
+                return Err(format!(
+                    "`{name}` belongs to the linear law, but `links` are given; leave one of them out"
+                ));
+            }
+            links.check()?;
         }
-        if *self.eps_min <= -1.0 {
-            return Err(format!(
-                "eps_min {} would let an element vanish; give more than -1",
-                *self.eps_min
-            ));
+        if let Trajectory::Linear { least, most, .. } = self.trajectory() {
+            if least > most {
+                return Err(format!(
+                    "eps_min {least} exceeds eps_max {most}; give a smaller eps_min or a larger eps_max"
+                ));
+            }
+            if least <= -1.0 {
+                return Err(format!(
+                    "eps_min {least} would let an element vanish; give more than -1"
+                ));
+            }
         }
         let Slopes {
             shear,

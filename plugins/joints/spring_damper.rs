@@ -1,12 +1,14 @@
 //! The spring-damper joint of Stölzle et al. 2023, eq. 6-7.
 
-use auxetica_engine::{Joint, JointLoad, Moment, NonNegative, Site, Wrench, register, rotation};
+use auxetica_engine::{
+    Inputs, Joint, JointLoad, Moment, NonNegative, Signal, Site, Wrench, register, rotation,
+};
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Holds two bodies together as they were at rest, by springs and dampers in translation and rotation. Without
-/// rotational stiffness it is a ball joint. The defaults are those of the paper's robot (section II-E).
+/// rotational stiffness it is a ball joint, with a `twist` a motor that stands on the second. The defaults are those of the paper's robot (section II-E).
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringDamper {
@@ -22,6 +24,10 @@ pub struct SpringDamper {
     /// Rotational damping nu_tau [N m s/rad].
     #[serde(default)]
     rotational_damping: NonNegative,
+    /// Angle about `d3` of the first body that it is to have from its rest against the second [rad], over time; none if
+    /// left out.
+    #[serde(default)]
+    twist: Option<Signal>,
     #[serde(skip)]
     rest: Rest,
 }
@@ -48,13 +54,16 @@ register!(
 );
 
 impl Joint for SpringDamper {
-    fn load(&self, _now: &Moment<'_>, a: &Site, b: &Site) -> JointLoad {
+    fn load(&self, now: &Moment<'_>, a: &Site, b: &Site) -> JointLoad {
         let attachment = b.position + b.director.tr_mul(&self.rest.lever);
         let speed = b.velocity + b.director.tr_mul(&b.omega.cross(&self.rest.lever));
         let force =
             (attachment - a.position) * *self.stiffness + (speed - a.velocity) * *self.damping;
 
-        let wanted = self.rest.turn * b.director;
+        let mut wanted = self.rest.turn * b.director;
+        if let Some(twist) = &self.twist {
+            wanted = rotation::turned(&wanted, &(Vector3::z() * twist.at(now)));
+        }
         let to_a = a.director * b.director.transpose();
         let torque = rotation::between(&a.director, &wanted) * *self.rotational_stiffness
             + (to_a * b.omega - a.omega) * *self.rotational_damping;
@@ -67,11 +76,13 @@ impl Joint for SpringDamper {
         }
     }
 
-    fn attach(&mut self, a: &Site, b: &Site) -> Result<(), String> {
+    fn attach(&mut self, a: &Site, b: &Site, inputs: &Inputs) -> Result<(), String> {
         self.rest = Rest {
             lever: b.director * (a.position - b.position),
             turn: a.director * b.director.transpose(),
         };
-        Ok(())
+        self.twist
+            .as_ref()
+            .map_or(Ok(()), |twist| twist.check(inputs))
     }
 }

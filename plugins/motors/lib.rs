@@ -1,11 +1,20 @@
 //! Motors at the start of a rod, and the sequences of angles that drive them.
 
 mod channels;
+mod defaults;
 mod motor_angle;
 mod motor_torque;
 mod primitives;
+mod random;
+mod rods;
+mod sequence;
+mod together;
+mod visits;
 
 pub use channels::Channels;
 pub use motor_angle::MotorAngle;
 pub use motor_torque::MotorTorque;
 pub use primitives::{MotionPrimitives, Primitive};
+pub use rods::RodPlace;
+pub use sequence::{ActuationSequence, Course};
+pub use together::Together;

@@ -1,7 +1,9 @@
-//! The motion primitives of a robot of four handed shearing auxetics (Stölzle et al. 2023, Fig. 2).
+//! The motion primitives of a robot of handed shearing auxetics (Stölzle et al. 2023, Fig. 2).
 
-use auxetica_engine::{Actuation, Dwell, Inputs, NonNegative, Positive, Series, register};
-use nalgebra::{Matrix4, Vector4};
+use crate::defaults::{half_turn, hold, motors, ramp};
+use crate::rods::{Motors, RodPlace, Wish};
+use crate::visits::{Timing, Visit};
+use auxetica_engine::{Actuation, Dwell, Inputs, NonNegative, Positive, register};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -25,39 +27,40 @@ pub enum Primitive {
 }
 
 impl Primitive {
-    /// Motor angles [rad] of rods of handedness R, L, R, L at 45, 135, 225 and 315 degrees, the largest being `most`:
-    /// the platform wish (bend x, bend y, twist, elongation) mapped by the inverse of the paper's actuation matrix.
-    pub fn angles(self, most: f64) -> [f64; 4] {
-        let wish = match self {
-            Self::Elongation => [0.0, 0.0, 0.0, 1.0],
-            Self::BendNorth => [0.0, 0.5, 0.0, 0.5],
-            Self::BendSouth => [0.0, -0.5, 0.0, 0.5],
-            Self::BendWest => [-0.5, 0.0, 0.0, 0.5],
-            Self::BendEast => [0.5, 0.0, 0.0, 0.5],
-            Self::TwistClockwise => [0.0, 0.0, -0.5, 0.5],
-            Self::TwistCounterclockwise => [0.0, 0.0, 0.5, 0.5],
-        };
-        // Rows are orthogonal with squared length 4, so the inverse is the transpose over 4; handedness comes after.
-        #[rustfmt::skip]
-        let winding = Matrix4::new(
-             1.0,  1.0, -1.0, -1.0,
-            -1.0,  1.0,  1.0, -1.0,
-             1.0, -1.0,  1.0, -1.0,
-             1.0,  1.0,  1.0,  1.0,
-        )
-        .tr_mul(&(Vector4::from(wish) * most));
-        let handed = winding.component_mul(&Vector4::new(1.0, -1.0, 1.0, -1.0));
-        handed.into()
+    fn wish(self) -> Wish {
+        match self {
+            Self::Elongation => Wish::new(0.0, 0.0, 0.0, 1.0),
+            Self::BendNorth => Wish::new(0.0, 0.5, 0.0, 0.5),
+            Self::BendSouth => Wish::new(0.0, -0.5, 0.0, 0.5),
+            Self::BendWest => Wish::new(-0.5, 0.0, 0.0, 0.5),
+            Self::BendEast => Wish::new(0.5, 0.0, 0.0, 0.5),
+            Self::TwistClockwise => Wish::new(0.0, 0.0, -0.5, 0.5),
+            Self::TwistCounterclockwise => Wish::new(0.0, 0.0, 0.5, 0.5),
+        }
+    }
+
+    /// Angles \[rad\] of the motors, that of the one which turns furthest being `most`; none if these rods can't.
+    fn angles(self, motors: &Motors, most: f64) -> Option<Vec<f64>> {
+        let mut shares = motors.shares(&self.wish());
+        let largest = shares.iter().copied().fold(0.0, f64::max);
+        shares.iter_mut().for_each(|share| *share /= largest);
+        (largest > 0.0).then(|| motors.angles(&shares, most))
     }
 }
 
-/// Goes through motion primitives one after the other: from rest to each, a wait, and back to rest. The inputs are
-/// `motor_1` to `motor_4`.
+/// Goes through motion primitives one after the other: from rest to each, a wait, and back to rest. In each the motor
+/// that turns furthest turns by `angle`.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MotionPrimitives {
     /// Primitives in their order.
     sequence: Vec<Primitive>,
+    /// Rods in the order of their motors; without any those of the paper, R, L, R, L at 45, 135, 225, 315 degrees.
+    #[serde(default)]
+    rods: Vec<RodPlace>,
+    /// Inputs are called this and the motor's number from 1.
+    #[serde(default = "motors")]
+    motors: String,
     /// Largest motor angle [degrees].
     #[serde(default = "half_turn")]
     angle: Positive,
@@ -69,19 +72,6 @@ pub struct MotionPrimitives {
     hold: NonNegative,
 }
 
-fn positive(value: f64) -> Positive {
-    Positive::new(value).expect("defaults are positive")
-}
-fn half_turn() -> Positive {
-    positive(179.9)
-}
-fn ramp() -> Positive {
-    positive(5.0)
-}
-fn hold() -> NonNegative {
-    NonNegative::new(10.0).expect("defaults aren't negative")
-}
-
 register!(
     dyn Actuation: MotionPrimitives,
     example = "MotionPrimitives(sequence: [Elongation, BendNorth])",
@@ -89,8 +79,27 @@ register!(
 );
 
 impl MotionPrimitives {
-    fn period(&self) -> f64 {
-        2.0 * *self.ramp + *self.hold
+    fn timing(&self) -> Timing {
+        Timing {
+            ramp: *self.ramp,
+            hold: *self.hold,
+            home: true,
+        }
+    }
+
+    fn visits(&self) -> Result<Vec<Visit>, String> {
+        let motors = Motors::new(&self.rods);
+        let visit = |primitive: &Primitive| {
+            let angles = primitive.angles(&motors, self.angle.to_radians());
+            let name = format!("{primitive:?}");
+            let angles = angles.ok_or_else(|| {
+                format!(
+                    "{name} winds no rod of this robot; leave it out, or give rods of both hands"
+                )
+            })?;
+            Ok(Visit { name, angles })
+        };
+        self.sequence.iter().map(visit).collect()
     }
 }
 
@@ -99,36 +108,12 @@ impl Actuation for MotionPrimitives {
         if self.sequence.is_empty() {
             return Err("the sequence is empty; name at least one primitive".into());
         }
-        let motor = |i: usize| {
-            let (mut times, mut values) = (vec![0.0], vec![0.0]);
-            let mut start = 0.0;
-            for primitive in &self.sequence {
-                let angle = primitive.angles(self.angle.to_radians())[i];
-                let held = start + *self.ramp + *self.hold;
-                for (time, value) in [
-                    (start + *self.ramp, angle),
-                    (held, angle),
-                    (start + self.period(), 0.0),
-                ] {
-                    if times.last().is_none_or(|last| time > *last) {
-                        times.push(time);
-                        values.push(value);
-                    }
-                }
-                start += self.period();
-            }
-            Ok((format!("motor_{}", i + 1), Series::new(times, values)?))
-        };
-        let channels: Result<Vec<_>, String> = (0..4).map(motor).collect();
-        Ok(Inputs::new(channels?))
+        self.timing().inputs(&self.visits()?, &self.motors)
     }
 
     fn dwells(&self) -> Vec<Dwell> {
-        let dwell = |(k, primitive): (usize, &Primitive)| Dwell {
-            time: k as f64 * self.period() + *self.ramp + *self.hold,
-            name: format!("{primitive:?}"),
-        };
-        self.sequence.iter().enumerate().map(dwell).collect()
+        // what is wrong with the visits, `inputs` tells
+        self.timing().dwells(&self.visits().unwrap_or_default())
     }
 }
 
@@ -145,7 +130,8 @@ mod tests {
             (Primitive::TwistClockwise, [0.0, -u, 0.0, -u]),
             (Primitive::TwistCounterclockwise, [u, 0.0, u, 0.0]),
         ] {
-            for (angle, published) in primitive.angles(u).into_iter().zip(published) {
+            let angles = primitive.angles(&Motors::new(&[]), u).expect("it can");
+            for (angle, published) in angles.into_iter().zip(published) {
                 assert!((angle - published).abs() < 1e-15, "{primitive:?}");
             }
         }

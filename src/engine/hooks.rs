@@ -62,7 +62,7 @@ pub trait Joint: Send + Sync {
     fn load(&self, now: &Moment<'_>, a: &Site, b: &Site) -> JointLoad;
 
     /// Remembers what it must of both sites at rest, and says in words what is wrong.
-    fn attach(&mut self, _a: &Site, _b: &Site) -> Result<(), String> {
+    fn attach(&mut self, _a: &Site, _b: &Site, _inputs: &Inputs) -> Result<(), String> {
         Ok(())
     }
 }

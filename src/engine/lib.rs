@@ -28,7 +28,7 @@ pub mod vectors;
 pub mod view;
 
 pub use auxetica_config::{
-    Count, Direction, Finite, NonNegative, Positive, Profile, Vec3, register,
+    Count, Direction, Finite, Nested, NonNegative, Positive, Profile, Vec3, register,
 };
 pub use bodies::{Cell, End};
 pub use cylinder::Cylinder;

@@ -130,7 +130,7 @@ impl System {
             return Err("a joint connects two different bodies".into());
         }
         let [a, b] = sides.map(|(id, place)| self.site(id, place));
-        joint.attach(&a, &b)?;
+        joint.attach(&a, &b, &self.inputs)?;
         self.joints.push(Connection {
             name: name.into(),
             joint,
