@@ -14,6 +14,7 @@ pub mod characterise;
 pub mod cli;
 pub mod compare;
 pub mod poses;
+pub mod reproduce;
 pub mod sweep;
 
 pub use auxetica_config as config;
@@ -21,6 +22,7 @@ pub use auxetica_engine as engine;
 pub use auxetica_identify as identify;
 pub use auxetica_kinematics as kinematics;
 pub use auxetica_recordings as recordings;
+pub use auxetica_report as report;
 
 // A plugin crate that nothing names is not linked, so each shipped one is named here.
 pub use auxetica_clamps as clamps;

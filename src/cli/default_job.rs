@@ -4,6 +4,7 @@ use super::progress::Meter;
 use super::{Failure, compare::show, print};
 use crate::compare::{Mode, SampleKind, compare, make_recording};
 use crate::config::Source;
+use crate::reproduce::Data;
 use std::path::{Path, PathBuf};
 
 const SCENARIO: &str = include_str!("../../scenarios/hsa_robot_recorded.ron");
@@ -19,12 +20,12 @@ const OTHER_ROBOT: [&str; 4] = [
 
 pub(super) fn run(quiet: bool) -> Result<(), Failure> {
     let source = Source::from_text("scenarios/hsa_robot_recorded.ron (embedded)", SCENARIO, &[])?;
-    let data = std::env::var_os("AUXETICA_DATA").map_or_else(|| "../shared".into(), PathBuf::from);
-    let real = data.join(RECORDING);
+    let data = Data::from_environment();
+    let real = data.folder().join(RECORDING);
     let folder = if real.is_dir() {
         real.clone()
     } else {
-        let made = made_folder(quiet, &data)?;
+        let made = made_folder(quiet, data.folder())?;
         let robot = Source::from_text(source.name(), SCENARIO, &OTHER_ROBOT.map(String::from))?;
         make_recording(&robot, &made)?;
         made

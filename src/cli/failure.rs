@@ -5,6 +5,7 @@ use crate::compare::CompareError;
 use crate::config::Problems;
 use crate::engine::RunError;
 use crate::identify::FitError;
+use crate::reproduce::ReproduceError;
 use crate::sweep::SweepError;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -42,6 +43,9 @@ pub enum Failure {
         /// Of how many.
         jobs: usize,
     },
+    /// Something of the paper could not be computed again.
+    #[error(transparent)]
+    Reproduce(ReproduceError),
     /// A file can't be written.
     #[error(
         "can't write {path}: {source}; check that the folder exists, has room and may be written to"
@@ -99,6 +103,17 @@ impl From<SweepError> for Failure {
     }
 }
 
+impl From<ReproduceError> for Failure {
+    fn from(e: ReproduceError) -> Self {
+        match e {
+            ReproduceError::Scenario(problems) => Self::Scenario(problems),
+            ReproduceError::Characterise(e) => e.into(),
+            ReproduceError::Run(e) => Self::Run(e),
+            other => Self::Reproduce(other),
+        }
+    }
+}
+
 impl Failure {
     pub(super) fn output(path: &Path, source: std::io::Error) -> Self {
         let path = path.into();
@@ -118,11 +133,12 @@ impl Failure {
             Self::Run(RunError::Unstable { .. }) => 2,
             Self::Stopped
             | Self::Run(RunError::Interrupted { .. })
-            | Self::Sweep(SweepError::Interrupted { .. }) => 130,
+            | Self::Sweep(SweepError::Interrupted { .. })
+            | Self::Reproduce(ReproduceError::Interrupted) => 130,
             Self::Sweep(
                 SweepError::File { .. } | SweepError::Table(_) | SweepError::Missing { .. },
             ) => 1,
-            Self::Sweep(_) => 2,
+            Self::Sweep(_) | Self::Reproduce(_) => 2,
             Self::Run(_) | Self::Fit(_) | Self::Output { .. } | Self::Jobs { .. } => 1,
         })
     }

@@ -7,6 +7,7 @@ mod default_job;
 mod failure;
 mod plugins;
 mod progress;
+mod reproduce;
 mod run;
 mod states;
 mod sweep;
@@ -48,6 +49,8 @@ enum Command {
     Sweep(sweep::Options),
     /// Make the table of a sweep whose shares were done apart.
     Merge(sweep::MergeOptions),
+    /// Compute figures and tables of the paper again, beside what it prints.
+    Reproduce(reproduce::Options),
 }
 
 /// A scenario file and what is changed in it.
@@ -84,6 +87,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> Exi
         Some(Command::Characterise(options)) => characterise::run(options, quiet),
         Some(Command::Sweep(options)) => sweep::run(options, quiet),
         Some(Command::Merge(options)) => sweep::merge(options),
+        Some(Command::Reproduce(options)) => reproduce::run(options, quiet),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -12,6 +12,7 @@ mod simulated;
 pub use made::make_recording;
 pub use mismatch::{BodyMismatch, Comparison, Worst};
 pub use observed::{Observed, SampleKind};
+pub(crate) use observed::{TABLE, motor_inputs};
 pub use simulated::{Mode, Simulated};
 
 use crate::config::{Problems, Source};

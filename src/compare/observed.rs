@@ -43,7 +43,7 @@ pub struct Observed {
 }
 
 /// The published table of steady poses beside a recording.
-const TABLE: &str = "inverse_kinematics_results_spcs_n_S-2.npz";
+pub(crate) const TABLE: &str = "inverse_kinematics_results_spcs_n_S-2.npz";
 
 impl Observed {
     /// Reads the recording in `folder`.
@@ -136,7 +136,7 @@ impl Observed {
 }
 
 /// Inputs `motor_1` to `motor_4` of angles \[rad\] at times \[s\].
-pub(super) fn motor_inputs(times: &[f64], angles: &[[f64; 4]]) -> Result<Inputs, String> {
+pub(crate) fn motor_inputs(times: &[f64], angles: &[[f64; 4]]) -> Result<Inputs, String> {
     let channel = |i: usize| {
         let values = angles.iter().map(|a| a[i]).collect();
         let series = Series::new(times.to_vec(), values)?;

@@ -27,6 +27,17 @@ impl Metrics {
         Self::with(vector_part, pairs)
     }
 
+    /// [`new`](Self::new) with, of the two quaternions of each fitted rotation, the one that is
+    /// nearer to the measured: for rotations about half a turn.
+    #[must_use]
+    pub fn near_half_turns<'a>(pairs: impl IntoIterator<Item = (&'a Pose, &'a Pose)>) -> Self {
+        Self::of(pairs, |measured, fitted| {
+            let (measured, fitted) = (measured.rotation, fitted.rotation);
+            let sign = measured.dot(&fitted).signum();
+            measured.imag() - fitted.imag() * sign
+        })
+    }
+
     /// [`new`](Self::new) with the quaternions of the paper's authors, `sign(x) sqrt(x^2 + 5 e)`
     /// with `e` the epsilon of single precision in each entry: entries of different sign are at
     /// least 0.0015 apart.
@@ -41,13 +52,22 @@ impl Metrics {
         vector_part: impl Fn(&Pose) -> Vector3<f64>,
         pairs: impl IntoIterator<Item = (&'a Pose, &'a Pose)>,
     ) -> Self {
+        Self::of(pairs, |measured, fitted| {
+            vector_part(measured) - vector_part(fitted)
+        })
+    }
+
+    fn of<'a>(
+        pairs: impl IntoIterator<Item = (&'a Pose, &'a Pose)>,
+        quaternion_difference: impl Fn(&Pose, &Pose) -> Vector3<f64>,
+    ) -> Self {
         let mut count = 0;
         let (mut position, mut quaternion, mut euler) = (0.0, 0.0, Vector3::zeros());
         for (measured, fitted) in pairs {
             count += 1;
             let offset = measured.translation.vector - fitted.translation.vector;
             position += offset.norm_squared();
-            quaternion += (vector_part(measured) - vector_part(fitted)).norm_squared();
+            quaternion += quaternion_difference(measured, fitted).norm_squared();
             euler += euler_xyz(measured, fitted).map(|angle| angle * angle);
         }
         let root = |sum: f64| (sum / f64::from(count.max(1))).sqrt();
