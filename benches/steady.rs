@@ -1,4 +1,4 @@
-//! What the paper's robot costs: its 100 steady states in elongation, one state from rest, and an explicit step.
+//! What the paper's robot costs: its 100 steady states in elongation, and one state from rest.
 //! The authors' simulator takes about 275 s for each of these states (15 s at 4e-5 s a step, one run to rest).
 
 use auxetica::config::Source;
@@ -11,8 +11,6 @@ use std::time::{Duration, Instant};
 const MOST: f64 = 3.139_846_324_338_117;
 /// The authors' samples.
 const STATES: usize = 100;
-/// Steps that are measured at once.
-const STEPS: u64 = 1000;
 
 /// The robot with all rods wound up to `angle` over 1 s.
 fn robot(angle: f64) -> Model {
@@ -68,19 +66,5 @@ fn steady(c: &mut Criterion) {
     group.finish();
 }
 
-fn step(c: &mut Criterion) {
-    let mut group = c.benchmark_group("dynamic");
-    group.throughput(Throughput::Elements(STEPS));
-    group.bench_function("1000 explicit steps", |b| {
-        let mut model = robot(MOST);
-        b.iter(|| {
-            (0..STEPS)
-                .try_for_each(|_| model.system.step(1e-5))
-                .expect("stable")
-        });
-    });
-    group.finish();
-}
-
-criterion_group!(benches, steady, step);
+criterion_group!(benches, steady);
 criterion_main!(benches);

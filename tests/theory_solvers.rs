@@ -3,9 +3,9 @@
 mod common;
 
 use auxetica::config::Source;
-use auxetica::engine::{Model, ReadBody, RunError, stability};
+use auxetica::engine::{BlowUp, Model, ReadBody, RunError, System, stability};
 use common::{model, nodes, steady};
-use nalgebra::{DMatrix, SymmetricEigen};
+use nalgebra::{DMatrix, SymmetricEigen, Vector3};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -172,8 +172,13 @@ fn a_time_step_beyond_the_limit_is_refused_unless_asked_for() {
     run(&mut free_rod(&insisted)).unwrap_or_else(|e| panic!("{e}"));
 }
 
-/// 40 rods of 31 stations fill three groups; a plate joins rods of all of them.
-fn many_rods() -> Model {
+/// 40 rods of 31 stations fill three groups; a plate may join rods of all of them.
+fn many_rods(joined: bool) -> Model {
+    let joints = if joined {
+        r#"(between: ("rods", "plate"), apply: SpringDamper(stiffness: 1e3, rotational_stiffness: 0.1))"#
+    } else {
+        ""
+    };
     let rods: Vec<String> = (0..40)
         .map(|i| format!(r#""rod_{i}": ({}, 0, 0)"#, 0.05 * i as f64))
         .collect();
@@ -195,7 +200,8 @@ fn many_rods() -> Model {
             cylinders: [(name: "plate", centre: (1, 0, 0.31), radius: 1.1, thickness: 0.02, density: 10)],
             boundary: [(on: "rods", apply: Clamp())],
             forcing: [{}],
-            joints: [(between: ("rods", "plate"), apply: SpringDamper(stiffness: 1e3, rotational_stiffness: 0.1))],
+            joints: [{joints}],
+            damping: [(on: "rods", apply: LinearDamping(translational: (1, 2, 3), rotational: (1e-3, 0, 1e-3)))],
             solver: Dynamic(duration: 1),
         )"#,
         rods.join(", "),
@@ -203,45 +209,86 @@ fn many_rods() -> Model {
     ))
 }
 
+/// Everything that the state holds, to the bit.
+fn bits(system: &System) -> Vec<Vector3<u64>> {
+    let mut bits = Vec::new();
+    for id in system.ids() {
+        let body = system.body(*id);
+        for i in 0..body.nodes() {
+            bits.extend([body.position(i), body.velocity(i)].map(|v| v.map(f64::to_bits)));
+        }
+        for e in 0..body.directors() {
+            bits.push(body.omega(e).map(f64::to_bits));
+            let director = body.director(e).map(f64::to_bits);
+            bits.extend(director.column_iter().map(|c| c.into_owned()));
+        }
+    }
+    bits
+}
+
+/// Every rod's state after 200 steps taken as told, on some threads.
+fn after_steps(joined: bool, threads: usize, go: impl Fn(&mut System) + Sync) -> Vec<Vector3<u64>> {
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .expect("a pool");
+    let mut model = many_rods(joined);
+    assert!(
+        model.system.stations() > 2 * 512,
+        "everything is in two groups"
+    );
+    pool.install(|| go(&mut model.system));
+    let last = model.system.find("rod_39").expect("the last rod");
+    assert!(
+        model.system.body(last).velocity(30).norm() > 1e-3,
+        "nothing moves"
+    );
+    assert_eq!(model.system.steps(), 200);
+    bits(&model.system)
+}
+
+fn one_by_one(system: &mut System) {
+    for _ in 0..200 {
+        system.step(1e-5).unwrap_or_else(|e| panic!("{e}"));
+    }
+}
+
+fn at_once(system: &mut System) {
+    let all = system.advance(1e-5, 200);
+    all.unwrap_or_else(|e| panic!("{e}"));
+}
+
 #[test]
 fn threads_change_no_bit() {
-    let states = [1, 2].map(|threads| {
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .expect("a pool");
-        let mut model = many_rods();
-        assert!(
-            model.system.stations() > 2 * 512,
-            "everything is in two groups"
-        );
-        pool.install(|| {
-            for _ in 0..200 {
-                model.system.step(1e-5).unwrap_or_else(|e| panic!("{e}"));
-            }
-        });
-        let last = model.system.find("rod_39").expect("the last rod");
-        assert!(
-            model.system.body(last).velocity(30).norm() > 1e-3,
-            "nothing moves"
-        );
-        let mut bits = Vec::new();
-        for id in model.system.ids() {
-            let body = model.system.body(*id);
-            for i in 0..body.nodes() {
-                bits.extend([body.position(i), body.velocity(i)].map(|v| v.map(f64::to_bits)));
-            }
-            for e in 0..body.directors() {
-                bits.push(body.omega(e).map(f64::to_bits));
-                bits.extend(
-                    body.director(e)
-                        .map(f64::to_bits)
-                        .column_iter()
-                        .map(|c| c.into_owned()),
-                );
-            }
-        }
-        bits
-    });
-    assert_eq!(states[0], states[1]);
+    for joined in [true, false] {
+        let one = after_steps(joined, 1, one_by_one);
+        assert_eq!(one, after_steps(joined, 2, one_by_one));
+        assert_eq!(one, after_steps(joined, 1, at_once));
+        assert_eq!(one, after_steps(joined, 2, at_once));
+    }
+}
+
+#[test]
+fn vector_instructions_change_no_bit() {
+    let baseline = |system: &mut System| {
+        system.use_baseline();
+        one_by_one(system);
+    };
+    assert_eq!(
+        after_steps(true, 1, baseline),
+        after_steps(true, 1, one_by_one)
+    );
+}
+
+#[test]
+fn many_steps_at_once_blow_up_as_one_by_one() {
+    let far_too_long = 2e-3;
+    let failed = |go: &dyn Fn(&mut System) -> Result<(), BlowUp>| {
+        let mut model = many_rods(false);
+        let blow_up = go(&mut model.system).expect_err("unstable");
+        (blow_up, model.system.time(), bits(&model.system))
+    };
+    let single = failed(&|s| (0..1000).try_for_each(|_| s.step(far_too_long)));
+    assert!(single.0.step > 2, "{}", single.0);
+    assert_eq!(single, failed(&|s| s.advance(far_too_long, 1000)));
 }

@@ -1,7 +1,8 @@
 //! Exponential damping of rates.
 
-use auxetica_engine::{Damping, RateView, ReadBody, Setting, Vec3, register};
-use nalgebra::Vector3;
+use auxetica_engine::elementary::exp;
+use auxetica_engine::{Damping, RateSlices, RateView, ReadBody, Setting, Vec3, register};
+use pulp::{Simd, WithSimd};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -25,32 +26,13 @@ register!(
 
 impl Damping for LinearDamping {
     fn damp(&self, dt: f64, body: &mut RateView<'_>) {
-        let keep = Vector3::from(*self.translational).map(|c| (-c * dt).exp());
-        for i in 0..body.nodes() {
-            let velocity = body.velocity(i);
-            body.set_velocity(i, velocity.component_mul(&keep));
-        }
-        for e in 0..body.directors() {
-            let mass = if body.is_rod() {
-                // end nodes belong to one element only
-                let share = |i: usize| {
-                    if i == 0 || i == body.elements() {
-                        1.0
-                    } else {
-                        0.5
-                    }
-                };
-                body.mass(e) * share(e) + body.mass(e + 1) * share(e + 1)
-            } else {
-                body.mass(0)
-            };
-            let (inertia, stretch) = (body.inertia(e), body.dilatation(e));
-            let mut omega = body.omega(e);
-            for j in 0..3 {
-                omega[j] *= (-self.rotational[j] * dt * mass / inertia[j] * stretch).exp();
-            }
-            body.set_omega(e, omega);
-        }
+        let (rigid, rates) = (!body.is_rod(), body.slices());
+        rates.arch.dispatch(Decay {
+            damping: self,
+            dt,
+            rigid,
+            rates,
+        });
     }
 
     fn check(&self, _setting: &Setting<'_>) -> Result<(), String> {
@@ -60,6 +42,46 @@ impl Damping for LinearDamping {
                 "damping coefficients can't be negative, one is {c}; give 0 or more"
             )),
             None => Ok(()),
+        }
+    }
+}
+
+/// One step of damping of one body, compiled for the machine's vectors.
+struct Decay<'a> {
+    damping: &'a LinearDamping,
+    dt: f64,
+    rigid: bool,
+    rates: RateSlices<'a>,
+}
+
+impl WithSimd for Decay<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let (dt, rates) = (self.dt, self.rates);
+        let (frames, nodes) = (rates.dilatation.len(), rates.mass.len());
+        for j in 0..3 {
+            let keep = exp(-self.damping.translational[j] * dt);
+            for v in rates.velocity[j].iter_mut() {
+                *v *= keep;
+            }
+            let (omega, inertia) = (&mut rates.omega[j][..frames], &rates.inertia[j][..frames]);
+            let coefficient = -self.damping.rotational[j] * dt;
+            if self.rigid {
+                omega[0] *= exp(coefficient * rates.mass[0] / inertia[0]);
+                continue;
+            }
+            let (before, after) = (&rates.mass[..frames], &rates.mass[1..=frames]);
+            for e in 0..frames {
+                let mass = (before[e] + after[e]) / 2.0;
+                omega[e] *= exp(coefficient * mass / inertia[e] * rates.dilatation[e]);
+            }
+            // end nodes belong to one element only
+            for (e, node) in [(0, 0), (frames - 1, nodes - 1)] {
+                let mass = rates.mass[node] / 2.0;
+                omega[e] *= exp(coefficient * mass / inertia[e] * rates.dilatation[e]);
+            }
         }
     }
 }

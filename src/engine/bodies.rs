@@ -7,14 +7,8 @@
 
 use crate::cylinder::Cylinder;
 use crate::rod::Rod;
-use crate::vectors::{Matrices, Vectors};
+use crate::vectors::{Matrices, Scalars, Vectors};
 use nalgebra::{Matrix3, Vector3};
-
-/// Dilatations beyond which a simulation has blown up.
-pub(crate) const STRETCH: std::ops::Range<f64> = 1e-3..1e3;
-/// Root mean square of the rotations \[rad\] between a rod's neighbouring elements beyond which a simulation has blown up:
-/// frames turned at random have 2.3, a motor's jump by half a turn at one end of ten elements 1.0.
-const TANGLED: f64 = 2.0;
 
 /// One end of a rod.
 #[derive(
@@ -113,6 +107,16 @@ pub struct State {
     pub omega: Vectors,
 }
 
+impl State {
+    /// Becomes the same as `other`, without allocating if it has its size.
+    pub fn copy_from(&mut self, other: &Self) {
+        self.position.copy_from(&other.position);
+        self.velocity.copy_from(&other.velocity);
+        self.director.copy_from(&other.director);
+        self.omega.copy_from(&other.omega);
+    }
+}
+
 /// Bodies stored together: state, properties and workspace. All arrays have one entry a station.
 #[derive(Clone, Debug, Default)]
 pub struct Bodies {
@@ -120,33 +124,41 @@ pub struct Bodies {
     pub(crate) state: State,
     /// Frames of the walls at start and tip of every body; read only where [`Layout::walled`] says so.
     pub(crate) walls: Vec<[Matrix3<f64>; 2]>,
+    /// The instructions that passes are compiled for.
+    pub(crate) arch: pulp::Arch,
+    /// 1 where the element exists, else 0.
+    pub(crate) element: Scalars,
+    /// 1 where the Voronoi cell exists, else 0.
+    pub(crate) cell: Scalars,
     // as built
-    pub(crate) mass: Vec<f64>,
+    pub(crate) mass: Scalars,
     pub(crate) inertia: Vectors,
-    pub(crate) reference_length: Vec<f64>,
+    pub(crate) reference_length: Scalars,
     pub(crate) built_shear_stretch: Vectors,
     pub(crate) built_bend_twist: Vectors,
     // what a rod law may change
-    pub(crate) rest_length: Vec<f64>,
-    pub(crate) twist_length: Vec<f64>,
+    pub(crate) rest_length: Scalars,
+    pub(crate) twist_length: Scalars,
     pub(crate) shear_stretch: Vectors,
     pub(crate) bend_twist: Vectors,
     pub(crate) rest_sigma: Vectors,
     pub(crate) rest_kappa: Vectors,
     // workspace of elements
-    pub(crate) length: Vec<f64>,
+    pub(crate) length: Scalars,
     pub(crate) tangent: Vectors,
-    pub(crate) dilatation: Vec<f64>,
-    pub(crate) stretch_rate: Vec<f64>,
+    pub(crate) dilatation: Scalars,
     pub(crate) sigma: Vectors,
     pub(crate) stress: Vectors,
     // workspace of Voronoi cells
     pub(crate) rotation: Vectors,
-    pub(crate) rest_voronoi: Vec<f64>,
-    pub(crate) voronoi_dilatation: Vec<f64>,
+    pub(crate) rest_voronoi: Scalars,
+    pub(crate) voronoi_dilatation: Scalars,
     pub(crate) kappa: Vectors,
     pub(crate) couple: Vectors,
     // loads
+    pub(crate) contact_force: Vectors,
+    pub(crate) contact_couple: Vectors,
+    pub(crate) transported_couple: Vectors,
     pub(crate) force: Vectors,
     pub(crate) torque: Vectors,
 }
@@ -167,27 +179,16 @@ impl Bodies {
         &self.state
     }
 
-    /// Whether rates are finite numbers and elements still resemble what the model is made for.
-    pub(crate) fn is_sound(&self) -> bool {
-        let whole = |k| STRETCH.contains(&self.dilatation[k]);
-        self.state.velocity.all_finite()
-            && self.state.omega.all_finite()
-            && self
-                .layouts
-                .iter()
-                .flat_map(Layout::element_stations)
-                .all(whole)
-            && !self.layouts.iter().any(|layout| self.is_tangled(layout))
-    }
-
-    /// Whether a rod's frames have lost all relation to each other.
-    pub(crate) fn is_tangled(&self, layout: &Layout) -> bool {
-        let squares: f64 = layout
-            .cells()
-            .map(|k| self.rotation.get(k).norm_squared())
-            .sum();
-        // at least four, since few cells may well be turned far by one motor
-        squares > TANGLED.powi(2) * layout.cells().len().max(4) as f64
+    /// Holds an end of body `b` by a wall.
+    pub(crate) fn set_wall(&mut self, b: usize, end: End, director: Matrix3<f64>) {
+        let layout = &mut self.layouts[b];
+        layout.walled[end as usize] = true;
+        self.walls[b][end as usize] = director;
+        let cell = match end {
+            End::Start => layout.first,
+            End::Tip => layout.first + layout.elements,
+        };
+        self.cell[cell] = 1.0;
     }
 
     /// Adds a rod at rest and returns its index. The rod has passed [`Rod::check`].
@@ -235,6 +236,8 @@ impl Bodies {
             self.push_station(Station {
                 position: rod.start + rod.direction * (element_length * k as f64),
                 director: directors,
+                element: right.is_some(),
+                whole_cell,
                 mass,
                 inertia,
                 length: element_length,
@@ -258,6 +261,8 @@ impl Bodies {
         self.push_station(Station {
             position: cylinder.centre,
             director: cylinder.director,
+            element: false,
+            whole_cell: false,
             mass: cylinder.mass,
             inertia: cylinder.inertia,
             length: 1.0,
@@ -296,6 +301,8 @@ impl Bodies {
         self.state.velocity.push(zero);
         self.state.director.push(s.director);
         self.state.omega.push(zero);
+        self.element.push(f64::from(s.element));
+        self.cell.push(f64::from(s.whole_cell));
         self.mass.push(s.mass);
         self.inertia.push(s.inertia);
         self.reference_length.push(s.length);
@@ -310,7 +317,6 @@ impl Bodies {
         self.rest_kappa.push(s.rest_kappa);
         self.length.push(s.length);
         self.dilatation.push(1.0);
-        self.stretch_rate.push(0.0);
         self.voronoi_dilatation.push(1.0);
         for zeroed in [
             &mut self.tangent,
@@ -319,6 +325,9 @@ impl Bodies {
             &mut self.rotation,
             &mut self.kappa,
             &mut self.couple,
+            &mut self.contact_force,
+            &mut self.contact_couple,
+            &mut self.transported_couple,
             &mut self.force,
             &mut self.torque,
         ] {
@@ -331,6 +340,8 @@ impl Bodies {
 struct Station {
     position: Vector3<f64>,
     director: Matrix3<f64>,
+    element: bool,
+    whole_cell: bool,
     mass: f64,
     inertia: Vector3<f64>,
     length: f64,

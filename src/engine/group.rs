@@ -1,8 +1,9 @@
 //! Bodies that are computed together.
 
-use crate::bodies::Bodies;
+use crate::bodies::{Bodies, State};
 use crate::hooks::{BoundaryCondition, Damping, Forcing, RodLaw};
 use crate::inputs::Moment;
+use crate::kernel::Pass;
 use crate::vectors::Vectors;
 use crate::view::{LawView, LoadView, PoseView, RateView};
 use rayon::prelude::*;
@@ -29,6 +30,10 @@ pub(crate) struct Group {
     pub(crate) forcing: Vec<Hooked<dyn Forcing>>,
     pub(crate) boundary: Vec<Hooked<dyn BoundaryCondition>>,
     pub(crate) damping: Vec<Hooked<dyn Damping>>,
+    /// Whether the last step has left all as it should be.
+    pub(crate) sound: bool,
+    /// Where several steps at once began.
+    pub(crate) start: State,
 }
 
 impl Group {
@@ -62,23 +67,22 @@ impl Group {
     }
 
     fn internal_loads(&mut self, now: &Moment<'_>) {
-        self.bodies.measure();
+        self.bodies.sweep(Pass::Measure);
         for l in &self.laws {
             l.hook
                 .rest(now, &mut LawView::new(&mut self.bodies, l.body));
         }
-        self.bodies.strain();
+        self.bodies.sweep(Pass::Strain);
         for l in &self.laws {
             l.hook
                 .stress(now, &mut LawView::new(&mut self.bodies, l.body));
         }
-        self.bodies.internal_loads();
+        self.bodies.sweep(Pass::Loads);
     }
 
     /// Rates after a step under the present loads, damped and held.
     pub(crate) fn kick(&mut self, now: &Moment<'_>, dt: f64) {
-        self.bodies.measure_rates();
-        self.bodies.kick(dt);
+        self.bodies.sweep(Pass::Kick(dt));
         for d in &self.damping {
             d.hook
                 .damp(dt, &mut RateView::new(&mut self.bodies, d.body));

@@ -2,58 +2,123 @@
 //!
 //! A frame turned by the rotation vector `theta` (material components, right-handed) is `exp(-[theta]x) Q`.
 
+use crate::lanes::{Rows, Triple, triple};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 
 /// The frame `q` turned by `theta` [rad], given in material components (Gazzola et al. 2018, eq. 2.10 integrated).
 #[inline]
 pub fn turned(q: &Matrix3<f64>, theta: &Vector3<f64>) -> Matrix3<f64> {
-    exp(&-theta) * q
+    let turn = Rows::from(&exp(&-theta));
+    turn.product(&q.into()).into()
 }
 
 /// Rotation vector [rad] that turns frame `a` into frame `b`, in the material components of either (they agree).
 /// Its length is in [0, pi].
 #[inline]
 pub fn between(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Vector3<f64> {
-    log(&(a * b.transpose()))
+    log(&Rows::from(a).product_transposed(&b.into()).into())
 }
 
-/// Rotation matrix of a rotation vector (Rodrigues).
+/// Squares of angles \[rad2\] up to which [`exp`] is a power series.
+pub(crate) const SMALL_SQUARE: f64 = 1.0 / 16.0;
+/// Squared sines of half angles up to which [`log`] is a power series: angles to 0.41 rad.
+pub(crate) const SMALL_HAVERSINE: f64 = 1.0 / 24.0;
+
+/// sin(t)/t in t^2.
+const SINC: [f64; 6] = alternating(1.0, 2.0);
+/// (1 - cos t)/t^2 in t^2.
+const COSC: [f64; 6] = alternating(0.5, 3.0);
+/// t/sin(t) in sin(t/2)^2.
+const ARCSINE: [f64; 12] = {
+    let mut c = [1.0; 12];
+    let mut n = 1;
+    while n < c.len() {
+        c[n] = c[n - 1] * (2 * n) as f64 / (2 * n + 1) as f64;
+        n += 1;
+    }
+    c
+};
+
+/// Each coefficient is the one before over `-k (k + 1)`, `k` growing by two from `from`.
+const fn alternating(first: f64, from: f64) -> [f64; 6] {
+    let mut c = [first; 6];
+    let mut n = 1;
+    while n < c.len() {
+        let k = from + 2.0 * (n - 1) as f64;
+        c[n] = -c[n - 1] / (k * (k + 1.0));
+        n += 1;
+    }
+    c
+}
+
+/// Horner's rule.
+#[inline(always)]
+pub(crate) fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
+    let mut value = coefficients[N - 1];
+    for i in (0..N - 1).rev() {
+        value = value * x + coefficients[i];
+    }
+    value
+}
+
+/// `1 + sinc [theta]x + cosc [theta]x^2` (Rodrigues).
+#[inline(always)]
+fn rodrigues(theta: Triple, squared: f64, sinc: f64, cosc: f64) -> Rows {
+    let (s, c) = (theta * sinc, theta * cosc);
+    let (xy, xz, yz) = (c.x * theta.y, c.x * theta.z, c.y * theta.z);
+    let diagonal = |along: f64| 1.0 + cosc * (along * along - squared);
+    Rows([
+        triple(diagonal(theta.x), xy - s.z, xz + s.y),
+        triple(xy + s.z, diagonal(theta.y), yz - s.x),
+        triple(xz - s.y, yz + s.x, diagonal(theta.z)),
+    ])
+}
+
+/// Rotation matrix of a rotation vector whose square is at most [`SMALL_SQUARE`], exact to rounding.
+#[inline(always)]
+pub(crate) fn exp_small(theta: Triple, squared: f64) -> Rows {
+    let (sinc, cosc) = (polynomial(&SINC, squared), polynomial(&COSC, squared));
+    rodrigues(theta, squared, sinc, cosc)
+}
+
+/// Rotation matrix of a rotation vector.
 #[inline]
 pub fn exp(theta: &Vector3<f64>) -> Matrix3<f64> {
-    let squared = theta.norm_squared();
-    // sin(t)/t and (1 - cos t)/t^2; the series is exact to rounding below its bound.
-    let (sinc, cosc) = if squared < 1e-4 {
-        (
-            1.0 - squared / 6.0 * (1.0 - squared / 20.0 * (1.0 - squared / 42.0)),
-            0.5 - squared / 24.0 * (1.0 - squared / 30.0 * (1.0 - squared / 56.0)),
-        )
-    } else {
-        let angle = squared.sqrt();
-        let (sin, cos) = angle.sin_cos();
-        (sin / angle, (1.0 - cos) / squared)
-    };
-    let x = theta.cross_matrix();
-    Matrix3::identity() + x * sinc + x * x * cosc
+    let theta = Triple::from(theta);
+    let squared = theta.squared();
+    if squared <= SMALL_SQUARE {
+        return exp_small(theta, squared).into();
+    }
+    let angle = squared.sqrt();
+    let (sin, cos) = angle.sin_cos();
+    rodrigues(theta, squared, sin / angle, (1.0 - cos) / squared).into()
+}
+
+/// Twice the sine of a rotation's angle along its axis, and the square of the sine of half the angle.
+#[inline(always)]
+pub(crate) fn sines(r: &Rows) -> (Triple, f64) {
+    let [a, b, c] = r.0;
+    let twice_sine_axis = triple(c.y - b.z, a.z - c.x, b.x - a.y);
+    (twice_sine_axis, (3.0 - (a.x + b.y + c.z)) / 4.0)
+}
+
+/// Rotation vector from [`sines`] if the second is at most [`SMALL_HAVERSINE`], exact to rounding.
+#[inline(always)]
+pub(crate) fn log_small(twice_sine_axis: Triple, haversine: f64) -> Triple {
+    twice_sine_axis * (0.5 * polynomial(&ARCSINE, haversine))
 }
 
 /// Rotation vector of a rotation matrix, of length at most pi.
 #[inline]
 pub fn log(r: &Matrix3<f64>) -> Vector3<f64> {
-    let twice_sine_axis = Vector3::new(
-        r[(2, 1)] - r[(1, 2)],
-        r[(0, 2)] - r[(2, 0)],
-        r[(1, 0)] - r[(0, 1)],
-    );
+    let (twice_sine_axis, haversine) = sines(&r.into());
+    if haversine <= SMALL_HAVERSINE {
+        return log_small(twice_sine_axis, haversine).into();
+    }
+    let twice_sine_axis = Vector3::from(twice_sine_axis);
     let cosine = (r.trace() - 1.0) / 2.0;
-    let sine_squared = twice_sine_axis.norm_squared() / 4.0;
-    if cosine > 0.0 && sine_squared < 1e-4 {
-        // asin(s)/s as a series in s^2
-        let s = sine_squared;
-        let ratio = 1.0
-            + s / 6.0 * (1.0 + s * 9.0 / 20.0 * (1.0 + s * 25.0 / 42.0 * (1.0 + s * 49.0 / 72.0)));
-        twice_sine_axis * (ratio / 2.0)
-    } else if cosine > -0.99 {
-        let sine = sine_squared.sqrt();
+    if cosine > -0.99 {
+        let sine = twice_sine_axis.norm() / 2.0;
         twice_sine_axis * (sine.atan2(cosine) / (2.0 * sine))
     } else {
         // Near a half turn the antisymmetric part vanishes and the quaternion keeps its accuracy.
@@ -72,6 +137,31 @@ mod tests {
         for angle in [1e-12, 1e-6, 9e-3, 1.1e-2, 0.5, 2.0, 3.0, 3.1, 3.135] {
             let theta = axis * angle;
             assert_relative_eq!(log(&exp(&theta)), theta, epsilon = 1e-12 * (1.0 + angle));
+        }
+    }
+
+    /// The formulas with library functions only.
+    fn plain_exp(theta: &Vector3<f64>) -> Matrix3<f64> {
+        let angle = theta.norm();
+        let x = (theta / angle).cross_matrix();
+        // 1 - cos without cancellation
+        Matrix3::identity() + x * angle.sin() + x * x * (2.0 * (angle / 2.0).sin().powi(2))
+    }
+
+    #[test]
+    fn power_series_agree_with_the_plain_formulas_to_rounding() {
+        let axis = Vector3::new(0.3, -0.7, 0.2).normalize();
+        for i in 1..2000 {
+            let theta = axis * (0.5 * f64::from(i) / 2000.0);
+            let r = exp(&theta);
+            assert!((r - plain_exp(&theta)).amax() < 4e-16, "exp at {i}");
+            let (axis, haversine) = sines(&(&r).into());
+            let axis = Vector3::from(axis);
+            let half = haversine.sqrt().asin();
+            let plain = axis * (half / (2.0 * half).sin());
+            let off = (log(&r) - plain).norm() / plain.norm();
+            assert!(off < 1e-15 || haversine < 1e-4, "log at {i}: {off:.1e}");
+            assert!((log(&r) - theta).norm() < 6e-16, "log at {i}");
         }
     }
 

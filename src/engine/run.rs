@@ -135,13 +135,14 @@ impl Model {
         summary.step = StepSize { dt, limit };
         let start = system.time();
         let mut next: Vec<f64> = vec![start; self.watchers.len()];
-        for step in 0..=steps as u64 {
-            let due = |next: &f64| system.time() >= *next - dt / 2.0;
-            if next.iter().any(due) {
+        let (mut step, last) = (0, steps as u64);
+        loop {
+            let due = |next: &f64, time: f64| time >= *next - dt / 2.0;
+            if next.iter().any(|next| due(next, system.time())) {
                 // strains and loads of the step are those of its middle; show those of now
                 system.evaluate();
                 for (watcher, next) in self.watchers.iter_mut().zip(&mut next) {
-                    if system.time() >= *next - dt / 2.0 {
+                    if due(next, system.time()) {
                         watcher.call(system)?;
                         *next += watcher.every;
                     }
@@ -151,16 +152,25 @@ impl Model {
                 let time = system.time();
                 return Err(RunError::Interrupted { time });
             }
-            if step == steps as u64 {
-                break;
+            if step == last {
+                return Ok(());
             }
-            if let Err(blow_up) = system.step(dt) {
+            // as far as there is nothing to record or report
+            let (mut count, mut time) = (1, system.time() + dt);
+            while step + count < last
+                && (step + count) % STEPS_PER_REPORT != 0
+                && !next.iter().any(|next| due(next, time))
+            {
+                count += 1;
+                time += dt;
+            }
+            if let Err(blow_up) = system.advance(dt, count) {
                 let blow_up = Box::new(blow_up);
                 return Err(RunError::BlowUp { blow_up, limit, dt });
             }
-            summary.steps = step + 1;
+            step += count;
+            summary.steps = step;
         }
-        Ok(())
     }
 
     fn run_steady(

@@ -208,13 +208,21 @@ impl System {
         self.time = saved.time;
         self.steps = saved.steps;
         for (group, state) in self.groups.iter_mut().zip(&saved.states) {
-            group.bodies.state.clone_from(state);
+            group.bodies.state.copy_from(state);
         }
     }
 
     /// Starts the clock at `time` \[s\] without moving anything.
     pub fn set_time(&mut self, time: f64) {
         self.time = time;
+    }
+
+    /// Does without vector instructions that not every machine of this architecture has, as on a machine without them:
+    /// slower, and to the same bits.
+    pub fn use_baseline(&mut self) {
+        for group in &mut self.groups {
+            group.bodies.arch = pulp::Arch::Scalar;
+        }
     }
 
     /// Forces and torques of the present state at the present time, joints included.

@@ -297,12 +297,43 @@ impl PoseView<'_> {
     /// Holds `end` of a rod by a wall of frame `director`: the end element turns against it over half an element's
     /// length, which makes a clamp second order. Once set, the wall stays.
     pub fn set_wall(&mut self, end: End, director: Matrix3<f64>) {
-        self.bodies.layouts[self.index].walled[end as usize] = true;
-        self.bodies.walls[self.index][end as usize] = director;
+        self.bodies.set_wall(self.index, end, director);
     }
 }
 
+/// Rates of a body, and what they decay by, as slices for loops that must be fast: one an axis or director, as long as
+/// there are nodes (velocities, masses) or frames (all else).
+pub struct RateSlices<'a> {
+    /// Velocities, world frame \[m/s\].
+    pub velocity: [&'a mut [f64]; 3],
+    /// Angular velocities, material frame \[rad/s\].
+    pub omega: [&'a mut [f64]; 3],
+    /// Masses of nodes, rigid ends included \[kg\].
+    pub mass: &'a [f64],
+    /// Moments of inertia about the directors, rigid ends included \[kg m2\].
+    pub inertia: [&'a [f64]; 3],
+    /// Dilatations \[-\], 1 for a rigid body.
+    pub dilatation: &'a [f64],
+    /// What dispatches a loop over these to its version for the machine's vector instructions.
+    pub arch: pulp::Arch,
+}
+
 impl RateView<'_> {
+    /// Everything at once, for loops over whole bodies.
+    pub fn slices(&mut self) -> RateSlices<'_> {
+        let layout = &self.bodies.layouts[self.index];
+        let nodes = layout.first..layout.first + layout.nodes();
+        let frames = layout.first..layout.first + layout.directors();
+        RateSlices {
+            velocity: self.bodies.state.velocity.slices_mut(nodes.clone()),
+            omega: self.bodies.state.omega.slices_mut(frames.clone()),
+            mass: &self.bodies.mass.as_slice()[nodes],
+            inertia: self.bodies.inertia.slices(frames.clone()),
+            dilatation: &self.bodies.dilatation.as_slice()[frames],
+            arch: self.bodies.arch,
+        }
+    }
+
     /// Sets the velocity of node `i`, world frame \[m/s\].
     pub fn set_velocity(&mut self, i: usize, velocity: Vector3<f64>) {
         let k = self.at(i);
