@@ -1,4 +1,8 @@
-"""The paper's 4-rod robot in HSA-PyElastica, as auxetica.rs has it; one JSON object."""
+"""The paper's 4-rod robot in HSA-PyElastica, as auxetica.rs has it; one JSON object.
+
+Its law takes the twist of the step before, so it lags by one step: after 2001 steps of 4e-5 s the platform is within
+1e-8 of the way moved of where Auxetica has it after 2000; after 2000 it is 5e-4 of the way behind.
+"""
 
 import json
 import math
