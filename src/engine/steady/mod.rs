@@ -4,14 +4,17 @@
 //! present one by continuation: boundary values move, and what was out of balance fades, in as few increments as
 //! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on.
 
+mod block_lu;
 mod diagnosis;
+mod path;
+mod sensitivity;
 mod tangent;
 mod unknowns;
 
-use crate::rotation;
 use crate::system::System;
-use nalgebra::Matrix3;
-use tangent::{Tangent, solve};
+use path::{Path, Poses};
+pub use sensitivity::Sensitivities;
+use tangent::Tangent;
 use unknowns::{Freedom, PER_STATION, Unknowns};
 
 /// How steady states are sought.
@@ -42,6 +45,10 @@ pub struct SteadyReport {
     pub iterations: usize,
     /// Increments of the continuation.
     pub increments: usize,
+    /// Tangent matrices that were found and factorised; iterations share them while they contract well.
+    pub factorisations: usize,
+    /// Evaluations of all loads, those of the tangent matrices included.
+    pub evaluations: usize,
     /// Largest force \[N\] left out of balance (torques are divided by the mean element length).
     pub residual: f64,
 }
@@ -62,11 +69,38 @@ const LARGEST_TURN: f64 = 1.0;
 const CONTRACTION: f64 = 0.5;
 /// Corrections below this stay on the branch, whatever their ratio: a law's kink may cost one that doesn't shrink.
 const HARMLESS: f64 = 0.02;
+/// Factor by which corrections must shrink for the tangent of an earlier state to be kept.
+const REUSE: f64 = 0.5;
+/// Share of the tolerance that the last correction must stay below if it is that of an earlier state's tangent.
+const REMAINDER: f64 = 0.01;
+/// How far stations may move for a tangent to be kept.
+const NEAR: f64 = 0.1;
 
-/// Newton iterations up to which the next increment may be twice as large.
-const EASY: usize = 5;
+/// Second correction, as a share of the first, that increments are made for: it grows with the increment.
+const GOOD: f64 = 0.2;
+/// Factor by which increments may grow at once.
+const FASTEST: f64 = 64.0;
 /// Share of an increment by which the path's tangent is found.
 const DIFFERENCE: f64 = 1e-4;
+
+/// How large a correction is.
+#[derive(Default)]
+struct Size {
+    /// Largest rotation \[rad\], or displacement in element lengths.
+    largest: f64,
+    /// Largest rotation \[rad\], or displacement in lengths of the longest rod, so that it doesn't depend on how finely
+    /// rods are cut.
+    motion: f64,
+}
+
+/// What an increment of the path has shown.
+#[derive(Default)]
+struct Trial {
+    /// Motion of the first correction, which follows the path's tangent.
+    first: f64,
+    /// Motion of the second correction as a share of it.
+    ratio: f64,
+}
 
 /// Finds and follows steady states of one system.
 pub struct SteadySolver {
@@ -74,33 +108,10 @@ pub struct SteadySolver {
     unknowns: Unknowns,
     freedom: Freedom,
     tangent: Tangent,
-}
-
-/// Positions, frames and walls of all groups.
-type Poses = Vec<(crate::bodies::State, Vec<[Matrix3<f64>; 2]>)>;
-
-/// The way from one equilibrium to the next: what is held moves, and what was out of balance fades.
-struct Path {
-    before: Poses,
-    target: Poses,
-    /// Displacements of held stations.
-    moves: Vec<f64>,
-    imbalance: Vec<f64>,
-}
-
-impl Path {
-    /// Turns walls a share of the way. They are no unknowns, so this is all of their motion.
-    fn turn_walls(&self, system: &mut System, share: f64) {
-        let groups = system.groups.iter_mut();
-        for (group, ((_, from), (_, to))) in groups.zip(self.before.iter().zip(&self.target)) {
-            for (walls, (from, to)) in group.bodies.walls.iter_mut().zip(from.iter().zip(to)) {
-                for end in 0..walls.len() {
-                    let turn = rotation::between(&from[end], &to[end]) * share;
-                    walls[end] = rotation::turned(&from[end], &turn);
-                }
-            }
-        }
-    }
+    /// How far stations have moved since the factors were found, if there are any.
+    moved: Option<f64>,
+    loads: Vec<f64>,
+    change: Vec<f64>,
 }
 
 impl SteadySolver {
@@ -111,12 +122,15 @@ impl SteadySolver {
         let unknowns = Unknowns::of(system);
         let freedom = Freedom::of(system, &unknowns).map_err(fail)?;
         let reach = unknowns.reach(system);
-        let tangent = Tangent::new(system, &unknowns, reach).map_err(fail)?;
+        let size = unknowns.stations * PER_STATION;
         Ok(Self {
             options,
+            tangent: Tangent::new(system, &unknowns, reach),
             unknowns,
             freedom,
-            tangent,
+            moved: None,
+            loads: vec![0.0; size],
+            change: vec![0.0; size],
         })
     }
 
@@ -124,22 +138,22 @@ impl SteadySolver {
     /// where it was.
     pub fn advance(&mut self, system: &mut System, time: f64) -> Result<SteadyReport, NotSteady> {
         let mut report = SteadyReport::default();
-        let start = self.poses(system);
+        let start = Poses::of(system);
         let start_time = system.time;
         loop {
             let from = system.time;
             let mut to = time;
             let mut whole = true;
-            while self.largest_turn(system, to) > LARGEST_TURN
+            while path::largest_turn(system, to, &self.unknowns) > LARGEST_TURN
                 && (to - from).abs() > 1e-6 * (time - start_time).abs()
             {
                 to = from + (to - from) / 2.0;
                 whole = false;
             }
-            if let Err(e) = self.increments(system, to, &mut report) {
-                self.set_poses(system, &start);
+            if let Err(reason) = self.increments(system, to, &mut report) {
+                start.set(system);
                 system.time = start_time;
-                return Err(e);
+                return Err(NotSteady { time: to, reason });
             }
             if whole {
                 return Ok(report);
@@ -153,98 +167,144 @@ impl SteadySolver {
         system: &mut System,
         time: f64,
         report: &mut SteadyReport,
-    ) -> Result<(), NotSteady> {
-        let before = self.poses(system);
+    ) -> Result<(), String> {
+        let target = path::held_at(system, time);
         system.time = time;
-        self.set_boundaries(system);
-        let target = self.poses(system);
-        self.set_poses(system, &before);
-        let imbalance = self.imbalance(system);
-        let moves = self.moves(&before, &target);
-        let path = Path {
-            before,
-            target,
-            moves,
-            imbalance,
-        };
-        let (mut done, mut increment) = (0.0, 1.0_f64);
+        self.find_imbalance(system, report);
+        let path = Path::new(system, target, self.loads.clone(), &self.unknowns);
+        let (mut done, mut increment, mut limit) = (0.0, 1.0_f64, 1.0_f64);
         while done < 1.0 {
-            let good = self.poses(system);
-            let to = (done + increment).min(1.0);
-            match self.newton(system, &path, done, to) {
-                Ok(iterations) => {
-                    report.iterations += iterations;
+            let good = Poses::of(system);
+            increment = increment.min(limit).min(1.0 - done);
+            let to = if increment < 1.0 - done {
+                done + increment
+            } else {
+                1.0
+            };
+            let mut trial = Trial::default();
+            match self.newton(system, &path, (done, to), &mut trial, report) {
+                Ok(()) => {
                     report.increments += 1;
                     done = to;
-                    if iterations <= EASY {
-                        increment *= 2.0;
-                    }
+                    limit = limit.max(2.0 * increment);
+                    increment *= (GOOD / trial.ratio).clamp(0.5, FASTEST);
                 }
                 Err(reason) => {
-                    self.set_poses(system, &good);
-                    increment /= 2.0;
-                    if increment < self.options.smallest_increment {
-                        let reason = self.unheld(system).unwrap_or(reason);
-                        return Err(NotSteady { time, reason });
+                    good.set(system);
+                    self.moved = None;
+                    // as small as is harmless, since it may stand at a law's kink; it grows fast
+                    let harmless = HARMLESS / 2.0 / trial.first;
+                    let smallest = self.options.smallest_increment;
+                    limit = increment / 2.0;
+                    if limit < smallest {
+                        return Err(self.unheld(system).unwrap_or(reason));
                     }
+                    increment = (increment * harmless.min(0.5)).max(smallest);
                 }
             }
         }
-        report.residual = self.residual(system);
+        self.find_imbalance(system, report);
+        let largest = self.loads.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+        report.residual = largest / self.unknowns.scale;
         Ok(())
     }
 
-    /// Newton's method from the equilibrium at the share `from` of the path to the one at `to`.
+    /// Newton's method from the equilibrium at the first share of the path to the one at the second.
     fn newton(
         &mut self,
         system: &mut System,
         path: &Path,
-        from: f64,
-        to: f64,
-    ) -> Result<usize, String> {
+        (from, to): (f64, f64),
+        trial: &mut Trial,
+        report: &mut SteadyReport,
+    ) -> Result<(), String> {
         let mut last = f64::INFINITY;
         for iteration in 1..=self.options.iterations {
+            report.iterations += 1;
             // The first step follows the tangent of the path; it takes held stations and walls there.
             let ahead = if iteration == 1 { to - from } else { 0.0 };
-            let mut loads = self.imbalance(system);
-            if !loads.iter().all(|v| v.is_finite()) {
+            self.find_imbalance(system, report);
+            if !self.loads.iter().all(|v| v.is_finite()) {
                 return Err(diagnosis::not_finite(system));
             }
             if ahead > 0.0 {
+                let still = self.loads.clone();
                 path.turn_walls(system, from + DIFFERENCE * ahead);
-                for (load, moved) in loads.iter_mut().zip(self.imbalance(system)) {
-                    *load += (moved - *load) / DIFFERENCE;
-                }
+                self.find_imbalance(system, report);
                 path.turn_walls(system, from);
+                for (load, still) in self.loads.iter_mut().zip(still) {
+                    *load = still + (*load - still) / DIFFERENCE;
+                }
             }
-            self.tangent.fill(system, &self.unknowns);
-            if let Some(station) = self.tangent.not_finite() {
-                return Err(diagnosis::no_derivative(system, &self.unknowns, station));
+            if self.moved.is_none_or(|moved| moved > NEAR) {
+                self.factorise(system, report)?;
             }
-            let factors = self.tangent.factorise(&self.freedom)?;
-            path.turn_walls(system, to);
-            let mut change: Vec<f64> = (0..loads.len())
-                .map(|i| ahead * path.moves[i] + (1.0 - to) * path.imbalance[i] - loads[i])
-                .collect();
-            if !solve(&factors, &mut change) {
-                return Err("the tangent matrix is singular: something can move without resistance; hold it with \
-                            a boundary condition or a joint"
-                    .into());
+            let mut size = self.correction(path, ahead, to)?;
+            if size.motion > REUSE * last && self.moved > Some(0.0) {
+                self.factorise(system, report)?;
+                size = self.correction(path, ahead, to)?;
             }
-            let largest = change.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+            if iteration == 1 {
+                path.turn_walls(system, to);
+            }
+            match iteration {
+                1 => trial.first = size.motion,
+                2 => trial.ratio = size.motion / trial.first,
+                _ => {}
+            }
             // Corrections that don't shrink fast may end on another branch than the one that is followed.
-            if !largest.is_finite() || (largest > CONTRACTION * last && largest > HARMLESS) {
+            if size.motion > CONTRACTION * last && size.motion > HARMLESS {
                 break;
             }
-            last = largest;
-            self.unknowns.displace_all(&mut system.groups, &change);
-            if largest < self.options.tolerance {
-                return Ok(iteration);
+            last = size.motion;
+            let accepted = match self.moved > Some(0.0) {
+                true => self.options.tolerance * REMAINDER,
+                false => self.options.tolerance,
+            };
+            self.unknowns.displace_all(&mut system.groups, &self.change);
+            self.moved = self.moved.map(|moved| moved + size.motion);
+            if size.largest < accepted {
+                return Ok(());
             }
         }
         Err("Newton's method didn't converge, however small the increment; follow the load from a smaller one \
              (ramps, closer times), or settle with the dynamic solver"
             .into())
+    }
+
+    /// Solves for the displacements of all stations towards equilibrium at the share `to` of the path, of which held
+    /// stations go the share `ahead`.
+    fn correction(&mut self, path: &Path, ahead: f64, to: f64) -> Result<Size, String> {
+        for (i, change) in self.change.iter_mut().enumerate() {
+            *change = ahead * path.moves[i] + (1.0 - to) * path.imbalance[i] - self.loads[i];
+        }
+        if !self.tangent.solve(&mut self.change) {
+            return Err("the tangent matrix is singular: something can move without resistance; hold it with a \
+                        boundary condition or a joint"
+                .into());
+        }
+        let mut size = Size::default();
+        for station in self.change.chunks_exact(PER_STATION) {
+            let [shift, turn] = [&station[..3], &station[3..]]
+                .map(|part| part.iter().fold(0.0_f64, |m, v| m.max(v.abs())));
+            size.largest = size.largest.max(shift).max(turn);
+            size.motion = size.motion.max(shift / self.unknowns.longest).max(turn);
+        }
+        Ok(size)
+    }
+
+    /// The tangent matrix of the present state and its factors.
+    fn factorise(&mut self, system: &mut System, report: &mut SteadyReport) -> Result<(), String> {
+        self.tangent.fill(system, &self.unknowns);
+        report.evaluations += self.tangent.evaluations();
+        if let Some(station) = self.tangent.not_finite() {
+            self.moved = None;
+            return Err(diagnosis::no_derivative(system, &self.unknowns, station));
+        }
+        self.tangent.factorise(&self.freedom);
+        report.factorisations += 1;
+        self.moved = Some(0.0);
+        Ok(())
     }
 
     /// Bodies that nothing holds, in words.
@@ -254,73 +314,10 @@ impl SteadySolver {
     }
 
     /// Loads in free directions, as the right-hand side takes them.
-    fn imbalance(&self, system: &mut System) -> Vec<f64> {
+    fn find_imbalance(&mut self, system: &mut System, report: &mut SteadyReport) {
         system.evaluate();
-        let mut loads = vec![0.0; self.unknowns.stations * PER_STATION];
-        self.unknowns.read_loads(&system.groups, &mut loads);
-        for (load, free) in loads.chunks_exact_mut(PER_STATION).zip(&self.freedom.free) {
-            let projected = free * nalgebra::Vector6::from_column_slice(load);
-            load.copy_from_slice(projected.as_slice());
-        }
-        loads
-    }
-
-    fn residual(&self, system: &mut System) -> f64 {
-        let loads = self.imbalance(system);
-        loads.iter().fold(0.0_f64, |m, v| m.max(v.abs())) / self.unknowns.scale
-    }
-
-    fn set_boundaries(&self, system: &mut System) {
-        system.apply_boundaries();
-        for group in &mut system.groups {
-            group.bodies.state.velocity.clear_to_zero();
-            group.bodies.state.omega.clear_to_zero();
-        }
-    }
-
-    /// Largest rotation \[rad\] of a held frame or wall from now to `time`.
-    fn largest_turn(&self, system: &mut System, time: f64) -> f64 {
-        let before = self.poses(system);
-        let now = std::mem::replace(&mut system.time, time);
-        self.set_boundaries(system);
-        let after = self.poses(system);
-        system.time = now;
-        self.set_poses(system, &before);
-        let walls = before
-            .iter()
-            .zip(&after)
-            .flat_map(|(b, a)| b.1.iter().zip(&a.1));
-        let walls =
-            walls.flat_map(|(b, a)| [0, 1].map(|end| rotation::between(&b[end], &a[end]).amax()));
-        let frames = self.moves(&before, &after);
-        let frames = frames
-            .chunks_exact(PER_STATION)
-            .flat_map(|s| s[3..].to_vec());
-        walls.chain(frames).fold(0.0, |m, v| m.max(v.abs()))
-    }
-
-    /// Displacements, scaled, that take one set of poses to another.
-    fn moves(&self, from: &Poses, to: &Poses) -> Vec<f64> {
-        let mut moves = Vec::with_capacity(self.unknowns.stations * PER_STATION);
-        for ((from, _), (to, _)) in from.iter().zip(to) {
-            for k in 0..from.position.len() {
-                let shift = (to.position.get(k) - from.position.get(k)) / self.unknowns.scale;
-                let turn = rotation::between(&from.director.get(k), &to.director.get(k));
-                moves.extend(shift.iter().chain(turn.iter()));
-            }
-        }
-        moves
-    }
-
-    fn poses(&self, system: &System) -> Poses {
-        let group = |g: &crate::group::Group| (g.bodies.state.clone(), g.bodies.walls.clone());
-        system.groups.iter().map(group).collect()
-    }
-
-    fn set_poses(&self, system: &mut System, poses: &Poses) {
-        for (group, (state, walls)) in system.groups.iter_mut().zip(poses) {
-            group.bodies.state.clone_from(state);
-            group.bodies.walls.clone_from(walls);
-        }
+        report.evaluations += 1;
+        self.unknowns.read_loads(&system.groups, &mut self.loads);
+        self.freedom.project(&mut self.loads);
     }
 }

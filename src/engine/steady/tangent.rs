@@ -3,107 +3,144 @@
 //! Loads on a station depend on the stations near it on the same body, so stations far enough apart are moved at once
 //! (colouring); joints are differentiated one by one. How far the dependence reaches is tested, not assumed.
 
+use super::block_lu::BlockLu;
 use super::unknowns::{Freedom, PER_STATION, Unknowns};
+use crate::group::Group;
 use crate::inputs::Moment;
+use crate::rotation;
 use crate::system::System;
-use faer::linalg::solvers::Solve;
-use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
-use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// Step of the central differences, in the unknowns' own unit. Forward ones would be too coarse for slender stiff rods:
 /// their error, of the axial rigidity times the step, exceeds the bending stiffness.
 const DIFFERENCE: f64 = 1e-5;
 
-/// A 6x6 block of the matrix, by stations.
+/// A 6x6 block of the matrix, by stations, and its place in the factors.
 struct Block {
     row: usize,
     column: usize,
-    /// Blocks of one body that are filled at once have the same colour.
-    colour: usize,
+    slot: usize,
+}
+
+/// Stations of bodies that are moved at once.
+struct Colour {
+    /// Groups and stations in them.
+    stations: Vec<(usize, usize)>,
+    /// Blocks of these columns.
+    blocks: std::ops::Range<usize>,
 }
 
 /// The sparse tangent matrix: pattern, values, and how to fill and factorise it.
 pub(super) struct Tangent {
-    colours: usize,
-    /// Bodies' blocks, then `joints`' blocks.
+    colours: Vec<Colour>,
+    /// Bodies' blocks colour by colour, then joints' blocks column by column.
     blocks: Vec<Block>,
-    of_bodies: usize,
+    values: Vec<Matrix6<f64>>,
     /// Stations that each joint depends and acts on.
     joints: Vec<Vec<usize>>,
-    values: Vec<Matrix6<f64>>,
-    symbolic: SymbolicSparseColMat<usize>,
-    order: Argsort<usize>,
-    factors: SymbolicLu<usize>,
+    factors: BlockLu,
     forth: Vec<f64>,
     back: Vec<f64>,
 }
 
+/// One station before it was moved.
+struct Place {
+    position: Vector3<f64>,
+    frame: Matrix3<f64>,
+}
+
+impl Place {
+    /// Moves a station by one of its unknowns and returns where it was. `turns` are the rotations by [`DIFFERENCE`].
+    fn moved(
+        group: &mut Group,
+        k: usize,
+        (j, sign): (usize, f64),
+        scale: f64,
+        turns: &[Matrix3<f64>; 3],
+    ) -> Self {
+        let state = &mut group.bodies.state;
+        let (position, frame) = (state.position.get(k), state.director.get(k));
+        if j < 3 {
+            let mut moved = position;
+            moved[j] += sign * DIFFERENCE * scale;
+            state.position.set(k, moved);
+        } else if sign > 0.0 {
+            state.director.set(k, turns[j - 3] * frame);
+        } else {
+            state.director.set(k, turns[j - 3].tr_mul(&frame));
+        }
+        Self { position, frame }
+    }
+
+    fn restore(&self, group: &mut Group, k: usize, j: usize) {
+        if j < 3 {
+            group.bodies.state.position.set(k, self.position);
+        } else {
+            group.bodies.state.director.set(k, self.frame);
+        }
+    }
+}
+
 impl Tangent {
     /// The pattern for loads that depend on `reach` neighbours to each side.
-    pub(super) fn new(system: &System, unknowns: &Unknowns, reach: usize) -> Result<Self, String> {
-        let colours = 2 * reach + 1;
-        let mut blocks = Vec::new();
-        let mut first = 0;
-        for layout in system.groups.iter().flat_map(|g| g.bodies.layouts()) {
-            for i in 0..layout.nodes() {
-                let rows = i.saturating_sub(reach)..(i + reach + 1).min(layout.nodes());
-                blocks.extend(rows.map(|row| Block {
-                    row: first + row,
-                    column: first + i,
-                    colour: i % colours,
-                }));
+    pub(super) fn new(system: &System, unknowns: &Unknowns, reach: usize) -> Self {
+        let spacing = 2 * reach + 1;
+        let mut colours = Vec::new();
+        let mut pattern = Vec::new();
+        for colour in 0..spacing {
+            let (mut stations, first) = (Vec::new(), pattern.len());
+            for (g, group) in system.groups.iter().enumerate() {
+                for layout in group.bodies.layouts() {
+                    for i in (colour..layout.nodes()).step_by(spacing) {
+                        let column = unknowns.global(g, layout.first + i);
+                        let rows = i.saturating_sub(reach)..(i + reach + 1).min(layout.nodes());
+                        pattern.extend(rows.map(|row| (column - i + row, column)));
+                        stations.push((g, layout.first + i));
+                    }
+                }
             }
-            first += layout.nodes();
+            colours.push(Colour {
+                stations,
+                blocks: first..pattern.len(),
+            });
         }
-        let of_bodies = blocks.len();
         let joints = joint_stations(system, unknowns);
         for stations in &joints {
             for column in stations {
-                blocks.extend(stations.iter().map(|row| Block {
-                    row: *row,
-                    column: *column,
-                    colour: 0,
-                }));
+                pattern.extend(stations.iter().map(|row| (*row, *column)));
             }
         }
-        let mut entries = Vec::with_capacity(blocks.len() * 36);
-        for block in &blocks {
-            for j in 0..PER_STATION {
-                for i in 0..PER_STATION {
-                    entries.push(Pair::new(
-                        block.row * PER_STATION + i,
-                        block.column * PER_STATION + j,
-                    ));
-                }
-            }
-        }
+        let factors = BlockLu::new(unknowns.stations, pattern.iter().copied());
+        let slots = factors.slots(pattern.iter().copied());
+        let blocks = pattern.into_iter().zip(slots);
         let size = unknowns.stations * PER_STATION;
-        let words = |e: &dyn std::fmt::Debug| format!("the tangent matrix can't be set up: {e:?}");
-        let (symbolic, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &entries)
-            .map_err(|e| words(&e))?;
-        let factors = SymbolicLu::try_new(symbolic.as_ref()).map_err(|e| words(&e))?;
-        Ok(Self {
+        Self {
             colours,
-            of_bodies,
-            joints,
             values: vec![Matrix6::zeros(); blocks.len()],
-            blocks,
-            symbolic,
-            order,
+            blocks: blocks
+                .map(|((row, column), slot)| Block { row, column, slot })
+                .collect(),
+            joints,
             factors,
             forth: vec![0.0; size],
             back: vec![0.0; size],
-        })
+        }
+    }
+
+    /// Evaluations of all bodies' loads that [`Tangent::fill`] takes.
+    pub(super) fn evaluations(&self) -> usize {
+        2 * PER_STATION * self.colours.len()
     }
 
     /// Differentiates at the present state.
     pub(super) fn fill(&mut self, system: &mut System, unknowns: &Unknowns) {
-        self.fill_bodies(system, unknowns);
-        self.fill_joints(system, unknowns);
+        let turns = [Vector3::x(), Vector3::y(), Vector3::z()]
+            .map(|axis| rotation::turned(&Matrix3::identity(), &(axis * DIFFERENCE)));
+        self.fill_bodies(system, unknowns, &turns);
+        self.fill_joints(system, unknowns, &turns);
     }
 
-    fn fill_bodies(&mut self, system: &mut System, unknowns: &Unknowns) {
+    fn fill_bodies(&mut self, system: &mut System, unknowns: &Unknowns, turns: &[Matrix3<f64>; 3]) {
         let System {
             groups,
             inputs,
@@ -114,26 +151,25 @@ impl Tangent {
             time: *time,
             inputs,
         };
-        for colour in 0..self.colours {
+        let mut places = Vec::new();
+        for colour in &self.colours {
             for j in 0..PER_STATION {
                 for (sign, loads) in [(1.0, &mut self.forth), (-1.0, &mut self.back)] {
-                    let by = Vector6::ith(j, sign * DIFFERENCE);
-                    for group in groups.iter_mut() {
-                        let start = group.bodies.state.clone();
-                        for b in 0..group.bodies.layouts().len() {
-                            let layout = &group.bodies.layouts()[b];
-                            let (first, nodes) = (layout.first, layout.nodes());
-                            for i in (colour..nodes).step_by(self.colours) {
-                                unknowns.displace(&mut group.bodies, first + i, &by);
-                            }
-                        }
-                        group.loads(&now);
-                        group.bodies.state = start;
+                    places.clear();
+                    places.extend(colour.stations.iter().map(|(g, k)| {
+                        Place::moved(&mut groups[*g], *k, (j, sign), unknowns.scale, turns)
+                    }));
+                    crate::group::each(groups, |group| group.loads(&now));
+                    for (place, (g, k)) in places.iter().zip(&colour.stations) {
+                        place.restore(&mut groups[*g], *k, j);
                     }
                     unknowns.read_loads(groups, loads);
                 }
-                let blocks = self.blocks[..self.of_bodies].iter().zip(&mut self.values);
-                for (block, value) in blocks.filter(|(block, _)| block.colour == colour) {
+                let blocks = colour.blocks.clone();
+                for (block, value) in self.blocks[blocks.clone()]
+                    .iter()
+                    .zip(&mut self.values[blocks])
+                {
                     let at = block.row * PER_STATION;
                     for i in 0..PER_STATION {
                         let change = self.forth[at + i] - self.back[at + i];
@@ -144,7 +180,7 @@ impl Tangent {
         }
     }
 
-    fn fill_joints(&mut self, system: &mut System, unknowns: &Unknowns) {
+    fn fill_joints(&mut self, system: &mut System, unknowns: &Unknowns, turns: &[Matrix3<f64>; 3]) {
         let System {
             groups,
             joints,
@@ -156,46 +192,34 @@ impl Tangent {
             time: *time,
             inputs,
         };
-        let mut block = self.of_bodies;
+        let mut first = self.colours.last().map_or(0, |c| c.blocks.end);
+        self.values[first..].fill(Matrix6::zeros());
         for (joint, stations) in joints.iter().zip(&self.joints) {
-            let loads = |groups: &[crate::group::Group]| -> Vec<Vector6<f64>> {
-                let mut loads = vec![Vector6::zeros(); stations.len()];
-                for side in joint.applied(groups, &now) {
-                    let place = |k: usize| {
-                        let station = unknowns.global(side.group, k);
-                        stations.iter().position(|s| *s == station)
-                    };
-                    if let (Some(node), Some(element)) = (place(side.node), place(side.element)) {
-                        let mut force = loads[node].fixed_rows_mut::<3>(0);
-                        force += side.force * unknowns.scale;
-                        let mut torque = loads[element].fixed_rows_mut::<3>(3);
-                        torque += side.torque;
-                    }
-                }
-                loads
-            };
             for column in stations {
-                let (group, k) = unknowns.locate(*column);
-                let (position, frame) = {
-                    let state = &groups[group].bodies.state;
-                    (state.position.get(k), state.director.get(k))
-                };
+                let (g, k) = unknowns.locate(*column);
+                let values = &mut self.values[first..first + stations.len()];
                 for j in 0..PER_STATION {
-                    let [forth, back] = [1.0, -1.0].map(|sign| {
-                        let by = Vector6::ith(j, sign * DIFFERENCE);
-                        unknowns.displace(&mut groups[group].bodies, k, &by);
-                        let loads = loads(groups);
-                        let state = &mut groups[group].bodies.state;
-                        state.position.set(k, position);
-                        state.director.set(k, frame);
-                        loads
-                    });
-                    for (row, (forth, back)) in forth.iter().zip(&back).enumerate() {
-                        let slope = (forth - back) / (2.0 * DIFFERENCE);
-                        self.values[block + row].set_column(j, &slope);
+                    for sign in [1.0, -1.0] {
+                        let place =
+                            Place::moved(&mut groups[g], k, (j, sign), unknowns.scale, turns);
+                        let share = sign / (2.0 * DIFFERENCE);
+                        for side in joint.applied(groups, &now) {
+                            let row = |k: usize| {
+                                let station = unknowns.global(side.group, k);
+                                stations.iter().position(|s| *s == station)
+                            };
+                            if let (Some(node), Some(element)) = (row(side.node), row(side.element))
+                            {
+                                let mut force = values[node].fixed_view_mut::<3, 1>(0, j);
+                                force += side.force * (unknowns.scale * share);
+                                let mut torque = values[element].fixed_view_mut::<3, 1>(3, j);
+                                torque += side.torque * share;
+                            }
+                        }
+                        place.restore(&mut groups[g], k, j);
                     }
                 }
-                block += stations.len();
+                first += stations.len();
             }
         }
     }
@@ -229,30 +253,30 @@ impl Tangent {
         product.iter().flat_map(|v| v.iter().copied()).collect()
     }
 
-    /// Factors of `P J + (I - P)`, P the projection on what is free: free rows ask for equilibrium, held rows for a
+    /// Factorises `P J + (I - P)`, P the projection on what is free: free rows ask for equilibrium, held rows for a
     /// given displacement.
-    pub(super) fn factorise(&self, freedom: &Freedom) -> Result<Lu<usize, f64>, String> {
-        let mut values = Vec::with_capacity(self.blocks.len() * 36);
-        for (at, (block, value)) in self.blocks.iter().zip(&self.values).enumerate() {
-            let free = &freedom.free[block.row];
-            let mut projected = free * value;
-            if at < self.of_bodies && block.row == block.column {
-                projected += Matrix6::identity() - free;
+    pub(super) fn factorise(&mut self, freedom: &Freedom) {
+        let matrix = self.factors.blocks_mut();
+        matrix.fill(Matrix6::zeros());
+        for (station, free) in freedom.free.iter().enumerate() {
+            if !freedom.is_all(station) {
+                matrix[station] = Matrix6::identity() - free;
             }
-            values.extend_from_slice(projected.as_slice());
         }
-        let matrix = SparseColMat::new_from_argsort(self.symbolic.clone(), &self.order, &values)
-            .map_err(|e| format!("the tangent matrix can't be assembled: {e:?}"))?;
-        Lu::try_new_with_symbolic(self.factors.clone(), matrix.as_ref())
-            .map_err(|e| format!("the tangent matrix can't be factorised: {e:?}"))
+        for (block, value) in self.blocks.iter().zip(&self.values) {
+            if freedom.is_all(block.row) {
+                matrix[block.slot] += value;
+            } else {
+                matrix[block.slot] += freedom.free[block.row] * value;
+            }
+        }
+        self.factors.factorise();
     }
-}
 
-/// Solves in place; `false` if the result isn't finite (a singular matrix).
-pub(super) fn solve(factors: &Lu<usize, f64>, side: &mut [f64]) -> bool {
-    let size = side.len();
-    factors.solve_in_place(faer::MatMut::from_column_major_slice_mut(side, size, 1));
-    side.iter().all(|v| v.is_finite())
+    /// Solves in place with the last factors; `false` if the result isn't finite (a singular matrix).
+    pub(super) fn solve(&self, side: &mut [f64]) -> bool {
+        self.factors.solve(side)
+    }
 }
 
 fn joint_stations(system: &System, unknowns: &Unknowns) -> Vec<Vec<usize>> {

@@ -19,6 +19,8 @@ pub(super) struct Unknowns {
     frameless: Vec<usize>,
     /// Length \[m\] that makes displacements and forces comparable with rotations and torques.
     pub(super) scale: f64,
+    /// Elements of the longest rod, at least 1.
+    pub(super) longest: f64,
 }
 
 impl Unknowns {
@@ -26,10 +28,11 @@ impl Unknowns {
         let mut offsets = Vec::new();
         let mut stations = 0;
         let mut frameless = Vec::new();
-        let (mut length, mut elements) = (0.0, 0usize);
+        let (mut length, mut elements, mut longest) = (0.0, 0usize, 1);
         for group in &system.groups {
             offsets.push(stations);
             for layout in group.bodies.layouts() {
+                longest = longest.max(layout.elements);
                 if layout.is_rod() {
                     frameless.push(stations + layout.first + layout.elements);
                 }
@@ -45,6 +48,7 @@ impl Unknowns {
             stations,
             frameless,
             scale: length / elements.max(1) as f64,
+            longest: longest as f64,
         }
     }
 
@@ -154,6 +158,8 @@ impl Unknowns {
 pub(super) struct Freedom {
     /// One projection a station.
     pub(super) free: Vec<Matrix6<f64>>,
+    /// Stations of which nothing is held.
+    all: Vec<bool>,
 }
 
 impl Freedom {
@@ -186,7 +192,23 @@ impl Freedom {
             }
             first += layout.nodes();
         }
-        Ok(Self { free })
+        let all = free.iter().map(|p| *p == Matrix6::identity()).collect();
+        Ok(Self { free, all })
+    }
+
+    /// Whether nothing of a station is held.
+    pub(super) fn is_all(&self, station: usize) -> bool {
+        self.all[station]
+    }
+
+    /// Leaves of each station's six what is free.
+    pub(super) fn project(&self, values: &mut [f64]) {
+        for (station, values) in values.chunks_exact_mut(PER_STATION).enumerate() {
+            if !self.all[station] {
+                let free = self.free[station] * Vector6::from_column_slice(values);
+                values.copy_from_slice(free.as_slice());
+            }
+        }
     }
 }
 

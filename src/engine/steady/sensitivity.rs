@@ -1,0 +1,195 @@
+//! Derivatives of steady states with respect to numbers of their scenario, by implicit differentiation.
+//!
+//! At a steady state the loads `R(z, p) = 0` in the free displacements `z` for every value of a number `p`, so
+//! `J dz/dp = -dR/dp` with the tangent matrix `J = dR/dz`. `dR/dp` is the central difference of two scenarios in which
+//! the number is a little larger and a little smaller, at the same free displacements: whatever it changes (geometry as
+//! built, what joints and clamps remember of it, boundary values, inputs) is in it. Outputs are differences of the same
+//! two scenarios, a little forth and back along `dz/dp`.
+
+use super::path::{Poses, hold};
+use super::{NotSteady, SteadyReport, SteadySolver};
+use crate::inputs::Inputs;
+use crate::scenario::Model;
+use crate::system::System;
+use auxetica_config::{Problem, Problems, Source};
+use nalgebra::DMatrix;
+
+/// Step of the differences, as a share of the number; of a number that is zero, in its own unit.
+const STEP: f64 = 1e-4;
+
+/// A number of the scenario.
+struct Parameter {
+    step: f64,
+    /// The scenarios in which it is larger and smaller by the step.
+    models: [Model; 2],
+}
+
+/// Derivatives of a scenario's steady states with respect to some of its numbers.
+pub struct Sensitivities {
+    parameters: Vec<Parameter>,
+}
+
+impl Sensitivities {
+    /// Prepares derivatives with respect to the numbers at `paths`, which are those of `--set`; a path that means
+    /// several places is one parameter, the value that all of them have. `inputs` are those that the scenario was
+    /// built with.
+    ///
+    /// # Errors
+    /// If a path means no number, or different ones, or one that can't be varied: a count, or a number at the end of
+    /// what is allowed.
+    pub fn new(source: &Source, inputs: Option<&Inputs>, paths: &[&str]) -> Result<Self, Problems> {
+        let stations = Model::build(source, inputs.cloned())?.system.stations();
+        let mut problems = Problems::default();
+        let mut parameters = Vec::new();
+        for path in paths {
+            let parameter = Parameter::new(source, inputs, path, stations);
+            parameters.extend(problems.collect(parameter));
+        }
+        problems.into_result()?;
+        Ok(Self { parameters })
+    }
+
+    /// Derivatives of `outputs` (rows) with respect to the parameters (columns, in the order of the paths) at the
+    /// steady state of `system` that `solver` has found. `outputs` reads what it likes of a model at a steady state:
+    /// positions, frames, strains, forces and couples are those of an evaluation there.
+    ///
+    /// # Errors
+    /// If the state is singular, as at a limit point.
+    pub fn at(
+        &mut self,
+        solver: &mut SteadySolver,
+        system: &mut System,
+        outputs: &dyn Fn(&Model) -> Vec<f64>,
+    ) -> Result<DMatrix<f64>, NotSteady> {
+        let time = system.time;
+        let fail = |reason| NotSteady { time, reason };
+        let mut report = SteadyReport::default();
+        solver.factorise(system, &mut report).map_err(fail)?;
+        let here = Poses::of(system);
+        let columns = self.parameters.iter_mut().map(|parameter| {
+            let change = parameter.change(solver, &here, time).map_err(fail)?;
+            Ok(parameter.outputs(solver, &here, &change, outputs))
+        });
+        let columns = columns.collect::<Result<Vec<Vec<f64>>, _>>()?;
+        let rows = columns.first().map_or(0, Vec::len);
+        Ok(DMatrix::from_fn(rows, columns.len(), |i, j| columns[j][i]))
+    }
+}
+
+impl Parameter {
+    fn new(
+        source: &Source,
+        inputs: Option<&Inputs>,
+        path: &str,
+        stations: usize,
+    ) -> Result<Self, Problems> {
+        let problem = |message: String, hint: &str| -> Problems {
+            source.problem(path, message).with_hint(hint).into()
+        };
+        let texts = source.values(path).map_err(|e| {
+            let (what, remedy) = e.split_once("; ").unwrap_or((&e, ""));
+            Problems::from(Problem::new(what).with_hint(remedy))
+        })?;
+        let numbers: Result<Vec<f64>, _> = texts.iter().map(|text| text.parse()).collect();
+        let Ok(numbers) = numbers else {
+            let shown: String = texts[0].chars().take(40).collect();
+            return Err(problem(
+                format!("`{path}` is no number but `{shown}`"),
+                "name a single number, as in `rods[0].length` or `forcing[0].apply.g[2]`",
+            ));
+        };
+        let value = numbers[0];
+        if let Some(other) = numbers.iter().find(|n| n.total_cmp(&value).is_ne()) {
+            return Err(problem(
+                format!("`{path}` means different numbers, {value} and {other}"),
+                "make them equal, or name them one by one",
+            ));
+        }
+        let step = if value == 0.0 {
+            STEP
+        } else {
+            STEP * value.abs()
+        };
+        let build = |value: f64| {
+            let varied = source.with(&[format!("{path}={value:?}")]);
+            let built = varied.and_then(|source| Model::build(&source, inputs.cloned()));
+            let model = built.map_err(|problems| {
+                let why = problems.0.first().map_or("", |p| &p.message);
+                problem(
+                    format!("`{path}` can't be varied: {value} is refused ({why})"),
+                    "derivatives need numbers that may be a little larger and smaller",
+                )
+            })?;
+            if model.system.stations() == stations {
+                Ok(model)
+            } else {
+                Err(problem(
+                    format!("`{path}` changes how many nodes there are"),
+                    "derivatives need numbers that may be a little larger and smaller",
+                ))
+            }
+        };
+        Ok(Self {
+            step,
+            models: [build(value + step)?, build(value - step)?],
+        })
+    }
+
+    /// Displacements of all stations for a unit of the parameter.
+    fn change(
+        &mut self,
+        solver: &SteadySolver,
+        here: &Poses,
+        time: f64,
+    ) -> Result<Vec<f64>, String> {
+        let size = solver.loads.len();
+        let (mut change, mut moves) = (vec![0.0; size], vec![0.0; size]);
+        for (model, sign) in self.models.iter_mut().zip([1.0, -1.0]) {
+            let system = &mut model.system;
+            here.set(system);
+            system.time = time;
+            hold(system);
+            let share = sign / (2.0 * self.step);
+            let moved = here.moves(&Poses::of(system), solver.unknowns.scale);
+            system.evaluate();
+            let mut loads = vec![0.0; size];
+            solver.unknowns.read_loads(&system.groups, &mut loads);
+            for i in 0..size {
+                moves[i] += moved[i] * share;
+                change[i] -= loads[i] * share;
+            }
+        }
+        solver.freedom.project(&mut change);
+        if !solver.tangent.solve(&mut change) {
+            return Err(
+                "the tangent matrix is singular, so the state has no derivatives; go on a little"
+                    .into(),
+            );
+        }
+        change.iter_mut().zip(moves).for_each(|(c, m)| *c += m);
+        Ok(change)
+    }
+
+    /// Derivatives of the outputs along `change`.
+    fn outputs(
+        &mut self,
+        solver: &SteadySolver,
+        here: &Poses,
+        change: &[f64],
+        outputs: &dyn Fn(&Model) -> Vec<f64>,
+    ) -> Vec<f64> {
+        let [more, less] = &mut self.models;
+        let values = |model: &mut Model, step: f64| {
+            let system = &mut model.system;
+            here.set(system);
+            let change: Vec<f64> = change.iter().map(|c| c * step).collect();
+            solver.unknowns.displace_all(&mut system.groups, &change);
+            hold(system);
+            system.evaluate();
+            outputs(model)
+        };
+        let (forth, back) = (values(more, self.step), values(less, -self.step));
+        let slope = |(f, b): (&f64, &f64)| (f - b) / (2.0 * self.step);
+        forth.iter().zip(&back).map(slope).collect()
+    }
+}
