@@ -122,7 +122,7 @@ fn a_motor_on_a_body_acts_as_one_on_the_ground() {
                 forcing: [(on: "rod", apply: EndForce(force: (0.05, 0, 0)))],
                 boundary: [
                     (on: "plate", apply: Clamp()),
-                    (on: "rod", apply: Hold(end: Tip, rotation: [Z])),
+                    (on: "rod", apply: Hold(end: Tip, rotation: [X, Y, Z])),
                     {boundary}
                 ],
                 joints: [{joints}],
