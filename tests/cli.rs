@@ -151,6 +151,11 @@ fn a_model_agrees_with_its_own_recording() {
             "{worst}"
         );
     }
+    let every_row = compared(folder.path(), &["--mode", "quasistatic"]);
+    assert_eq!(every_row["mode"], "quasistatic");
+    assert!(every_row["samples"].as_u64() > Some(200), "{every_row}");
+    let platform = &every_row["bodies"][0];
+    assert!(number(&platform["position_rmse_mm"]) < 0.05, "{platform}");
     let other = compared(folder.path(), &["--set", GRAVITY]);
     let platform = &other["bodies"][0];
     assert!(number(&platform["position_rmse_mm"]) > 0.2, "{platform}");

@@ -97,6 +97,7 @@ pub(super) fn show(c: &Comparison) -> String {
     );
     let what = match c.mode {
         Mode::Steady => "steady samples",
+        Mode::Quasistatic => "rows, a steady state each",
         Mode::Dynamic => "rows through time",
     };
     let mut left_out = String::new();

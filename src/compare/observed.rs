@@ -34,7 +34,7 @@ pub struct Observed {
     pub rest: f64,
     /// Rest pose of both, orientation of the markers included.
     pub reference: Reference,
-    /// Angles over time from rest on: of the samples if steady, of every row if dynamic.
+    /// Angles over time from rest on: of the samples if steady, else of every row.
     angles: (Vec<f64>, Vec<[f64; 4]>),
     /// Dwells without a sample.
     pub skipped: usize,
@@ -51,7 +51,7 @@ impl Observed {
         let recording = Recording::read(folder)?;
         let geometry = RobotGeometry::default();
         match mode {
-            Mode::Dynamic => Self::every_row(&recording, &geometry),
+            Mode::Quasistatic | Mode::Dynamic => Self::every_row(&recording, &geometry),
             Mode::Steady if recording.mocap.is_none() => {
                 let table = PublishedTable::read(folder.join(TABLE)).map_err(|table| {
                     CompareError::Unfit(format!(

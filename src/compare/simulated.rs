@@ -12,8 +12,10 @@ use nalgebra::{Rotation3, UnitQuaternion};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Mode {
-    /// A steady state at each sample.
+    /// A steady state at each settled sample.
     Steady,
+    /// A steady state at every row, as if the robot moved infinitely slowly.
+    Quasistatic,
     /// Through time, explicitly.
     Dynamic,
 }
@@ -64,7 +66,7 @@ impl Simulated {
             unsolved: Vec::new(),
         };
         let step = match mode {
-            Mode::Steady => StepSize::default(),
+            Mode::Steady | Mode::Quasistatic => StepSize::default(),
             Mode::Dynamic => model.time_step()?,
         };
         for (i, time) in observed.time.iter().enumerate() {
@@ -75,7 +77,9 @@ impl Simulated {
                 return Err(RunError::Interrupted { time }.into());
             }
             let solved = match mode {
-                Mode::Steady => solver.advance(&mut model.system, *time).map(drop),
+                Mode::Steady | Mode::Quasistatic => {
+                    solver.advance(&mut model.system, *time).map(drop)
+                }
                 Mode::Dynamic => {
                     through(&mut model, *time, step)?;
                     Ok(())
