@@ -114,6 +114,33 @@ impl Source {
         targets.into_iter().map(value).collect()
     }
 
+    /// The number that stands wherever `path` means.
+    ///
+    /// # Errors
+    /// If there is none, or different ones: in words why, and after a semicolon what to do.
+    pub fn number(&self, path: &str) -> Result<f64, String> {
+        let number = |text: &str| {
+            text.parse::<f64>().map_err(|_| {
+                let shown: String = text.chars().take(40).collect();
+                format!(
+                    "`{path}` is no number but `{shown}`; name a single number, as in `rods[0].length` or \
+                     `forcing[0].apply.g[2]`"
+                )
+            })
+        };
+        let texts = self.values(path)?;
+        let first = number(texts[0])?;
+        for text in &texts[1..] {
+            let other = number(text)?;
+            if other.total_cmp(&first).is_ne() {
+                return Err(format!(
+                    "`{path}` means different numbers, {first} and {other}; make them equal, or name them one by one"
+                ));
+            }
+        }
+        Ok(first)
+    }
+
     /// The file or the name given to the text.
     pub fn name(&self) -> &str {
         &self.name

@@ -25,26 +25,7 @@ pub struct Uncertain {
 impl Uncertain {
     /// The scenario's present value, or the field that is wrong and why.
     pub fn nominal(&self, source: &Source) -> Result<f64, (&'static str, String)> {
-        let texts = source.values(&self.path).map_err(|e| ("path", e))?;
-        let mut values = Vec::new();
-        for text in texts {
-            values.push(text.parse::<f64>().map_err(|_| {
-                let path = &self.path;
-                let text: String = text.chars().take(40).collect();
-                (
-                    "path",
-                    format!("`{path}` is no number but `{text}`; name a single number"),
-                )
-            })?);
-        }
-        let first = values[0];
-        if let Some(other) = values.iter().find(|value| value.total_cmp(&first).is_ne()) {
-            let message = format!(
-                "`{}` stands for different values, {first} and {other}; make them equal, or name them one by one",
-                self.path
-            );
-            return Err(("path", message));
-        }
+        let nominal = source.number(&self.path).map_err(|e| ("path", e))?;
         let (least, most) = (*self.range.0, *self.range.1);
         if least >= most {
             let message = format!(
@@ -52,12 +33,12 @@ impl Uncertain {
             );
             return Err(("range", message));
         }
-        if !(least..=most).contains(&first) {
+        if !(least..=most).contains(&nominal) {
             let message = format!(
-                "the scenario's value {first} is outside the range ({least}, {most}); widen it or change the value"
+                "the scenario's value {nominal} is outside the range ({least}, {most}); widen it or change the value"
             );
             return Err(("range", message));
         }
-        Ok(first)
+        Ok(nominal)
     }
 }

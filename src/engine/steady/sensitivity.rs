@@ -11,7 +11,7 @@ use super::{NotSteady, SteadyReport, SteadySolver};
 use crate::inputs::Inputs;
 use crate::scenario::Model;
 use crate::system::System;
-use auxetica_config::{Problem, Problems, Source};
+use auxetica_config::{Problems, Source};
 use nalgebra::DMatrix;
 
 /// Step of the differences, as a share of the number; of a number that is zero, in its own unit.
@@ -86,25 +86,10 @@ impl Parameter {
         let problem = |message: String, hint: &str| -> Problems {
             source.problem(path, message).with_hint(hint).into()
         };
-        let texts = source.values(path).map_err(|e| {
+        let value = source.number(path).map_err(|e| {
             let (what, remedy) = e.split_once("; ").unwrap_or((&e, ""));
-            Problems::from(Problem::new(what).with_hint(remedy))
+            problem(what.to_owned(), remedy)
         })?;
-        let numbers: Result<Vec<f64>, _> = texts.iter().map(|text| text.parse()).collect();
-        let Ok(numbers) = numbers else {
-            let shown: String = texts[0].chars().take(40).collect();
-            return Err(problem(
-                format!("`{path}` is no number but `{shown}`"),
-                "name a single number, as in `rods[0].length` or `forcing[0].apply.g[2]`",
-            ));
-        };
-        let value = numbers[0];
-        if let Some(other) = numbers.iter().find(|n| n.total_cmp(&value).is_ne()) {
-            return Err(problem(
-                format!("`{path}` means different numbers, {value} and {other}"),
-                "make them equal, or name them one by one",
-            ));
-        }
         let step = if value == 0.0 {
             STEP
         } else {

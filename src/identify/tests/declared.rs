@@ -64,7 +64,7 @@ fn what_is_declared_wrongly_is_refused_at_its_place() {
         ),
         (
             "uncertain[0].path=\"rods[*].material.shear\"",
-            ["different values, 400000 and 500000", "one by one"],
+            ["different numbers, 400000 and 500000", "one by one"],
         ),
         (
             "uncertain[0].path=\"\"",
