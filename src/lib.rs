@@ -13,6 +13,7 @@
 pub mod characterise;
 pub mod cli;
 pub mod compare;
+pub mod diagnose;
 pub mod poses;
 pub mod reproduce;
 pub mod sweep;
@@ -27,8 +28,10 @@ pub use auxetica_report as report;
 // A plugin crate that nothing names is not linked, so each shipped one is named here.
 pub use auxetica_clamps as clamps;
 pub use auxetica_damping as damping;
+pub use auxetica_effects as effects;
 pub use auxetica_hsa as hsa;
 pub use auxetica_joints as joints;
 pub use auxetica_loads as loads;
+pub use auxetica_materials as materials;
 pub use auxetica_motors as motors;
 pub use auxetica_recorders as recorders;

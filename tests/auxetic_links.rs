@@ -79,7 +79,7 @@ fn printing_decides_which_ways_a_rod_can_go() {
 }
 
 /// Extension [m] and turn [rad] of the tip of a rod under an axial force [N] and a torque about its axis [N m].
-fn response(law: &str, reciprocal: bool, force: f64, torque: f64) -> (f64, f64) {
+fn response(law: &str, reciprocal: u8, force: f64, torque: f64) -> (f64, f64) {
     let mut model = model(&format!(
         r#"(
             title: "pulled and twisted",
@@ -117,14 +117,14 @@ fn a_force_turns_the_tip_as_a_torque_moves_it() {
     ] {
         for torque in torques {
             let (force_step, torque_step) = (1e-3, 1e-5);
-            let turn = |reciprocal: bool| {
+            let turn = |reciprocal: u8| {
                 let [back, forth] = [-force_step, force_step]
                     .map(|force| response(&law, reciprocal, force, torque).1);
                 (forth - back) / (2.0 * force_step)
             };
-            let turn = turn(true) - turn(false);
+            let turn = turn(1) - turn(0);
             let [back, forth] =
-                [-torque_step, torque_step].map(|step| response(&law, true, 0.0, torque + step).0);
+                [-torque_step, torque_step].map(|step| response(&law, 1, 0.0, torque + step).0);
             let shift = (forth - back) / (2.0 * torque_step);
             println!("{law}, {torque} N m: {turn:.6e} rad/N, {shift:.6e} m/(N m)");
             assert!(shift.abs() > 1e-3, "the tip must move: {shift}");

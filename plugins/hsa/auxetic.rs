@@ -84,10 +84,10 @@ pub struct Auxetic {
     /// How rigidities change with the winding twist.
     #[serde(default)]
     slopes: Slopes,
-    /// Whether the axial force gives a twist couple in return, which makes the law conservative to first order in the
-    /// axial strain. The published law has none.
+    /// Share of the twist couple that the axial force gives in return [-]: 1 makes the law conservative to first order in
+    /// the axial strain. The published law has none.
     #[serde(default)]
-    reciprocal: bool,
+    reciprocal: Option<Finite>,
 }
 
 register!(
@@ -174,7 +174,8 @@ impl RodLaw for Auxetic {
     }
 
     fn stress(&self, _now: &Moment<'_>, rod: &mut LawView<'_>) {
-        if !self.reciprocal {
+        let share = self.reciprocal.map_or(0.0, f64::from);
+        if share == 0.0 {
             return;
         }
         let trajectory = self.trajectory();
@@ -187,7 +188,7 @@ impl RodLaw for Auxetic {
                 let lengthening = slope * self.share(rod, e) * rod.reference_length(e);
                 couple += lengthening / rod.twist_length(v) * rod.stress(e).z * rod.dilatation(e);
             }
-            rod.add_couple(v, Vector3::z() * (self.handedness.sign() * couple));
+            rod.add_couple(v, Vector3::z() * (share * self.handedness.sign() * couple));
         }
     }
 

@@ -83,6 +83,17 @@ impl From<CompareError> for Failure {
     }
 }
 
+impl From<crate::diagnose::DiagnoseError> for Failure {
+    fn from(e: crate::diagnose::DiagnoseError) -> Self {
+        use crate::diagnose::DiagnoseError;
+        match e {
+            DiagnoseError::Scenario(problems) => Self::Scenario(problems),
+            DiagnoseError::Recording(e) => e.into(),
+            DiagnoseError::Unfit(e) => CompareError::Unfit(e).into(),
+        }
+    }
+}
+
 impl From<CharacteriseError> for Failure {
     fn from(e: CharacteriseError) -> Self {
         match e {

@@ -4,6 +4,7 @@ mod characterise;
 mod check;
 mod compare;
 mod default_job;
+mod diagnose;
 mod failure;
 mod plugins;
 mod progress;
@@ -49,6 +50,8 @@ enum Command {
     Sweep(sweep::Options),
     /// Make the table of a sweep whose shares were done apart.
     Merge(sweep::MergeOptions),
+    /// Say which physics a scenario lacks, from recordings of the real robot, and write the scenario that has it.
+    Diagnose(diagnose::Options),
     /// Compute figures and tables of the paper again, beside what it prints.
     Reproduce(reproduce::Options),
 }
@@ -87,6 +90,7 @@ pub fn main_with(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> Exi
         Some(Command::Characterise(options)) => characterise::run(options, quiet),
         Some(Command::Sweep(options)) => sweep::run(options, quiet),
         Some(Command::Merge(options)) => sweep::merge(options),
+        Some(Command::Diagnose(options)) => diagnose::run(options, quiet),
         Some(Command::Reproduce(options)) => reproduce::run(options, quiet),
     };
     match done {

@@ -13,6 +13,7 @@ pub use made::make_recording;
 pub use mismatch::{BodyMismatch, Comparison, Worst};
 pub use observed::{Observed, SampleKind};
 pub(crate) use observed::{TABLE, motor_inputs};
+pub(crate) use simulated::markers;
 pub use simulated::{Mode, Simulated};
 
 use crate::config::{Problems, Source};

@@ -104,7 +104,7 @@ impl Simulated {
     }
 }
 
-pub(super) fn markers(model: &Model) -> Result<[Marker; 2], CompareError> {
+pub(crate) fn markers(model: &Model) -> Result<[Marker; 2], CompareError> {
     let find = |name: &str| {
         let marker = model.markers.iter().find(|m| m.name == name).cloned();
         marker.ok_or_else(|| {

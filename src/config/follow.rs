@@ -68,12 +68,12 @@ impl Follower<'_> {
                     &holds(items.len()),
                 )),
             },
-            (Kind::Every, Body::List(items) | Body::Tuple(items)) if !items.is_empty() => items
-                .iter()
-                .try_for_each(|item| self.follow(item, later, found)),
-            (Kind::Every, Body::Map(entries)) if !entries.is_empty() => entries
-                .iter()
-                .try_for_each(|entry| self.follow(&entry.value, later, found)),
+            (Kind::Every, Body::List(items) | Body::Tuple(items)) if !items.is_empty() => {
+                self.every(items.iter(), later, found)
+            }
+            (Kind::Every, Body::Map(entries)) if !entries.is_empty() => {
+                self.every(entries.iter().map(|entry| &entry.value), later, found)
+            }
             (Kind::Every, Body::List(_) | Body::Map(_)) => {
                 Err(self.fault(node, step, "is empty", "`*` needs at least one element"))
             }
@@ -93,6 +93,27 @@ impl Follower<'_> {
             )),
             _ => Err(self.fault(node, step, self.nature(node), "set the whole value instead")),
         }
+    }
+
+    /// Follows all elements. If some of them have the value already, those that don't are not meant.
+    fn every<'n>(
+        &self,
+        items: impl Iterator<Item = &'n Node>,
+        later: &[Step],
+        found: &mut Vec<Target>,
+    ) -> Result<(), Finding> {
+        let (mut all, mut faults) = (Vec::new(), Vec::new());
+        for item in items {
+            faults.extend(self.follow(item, later, &mut all).err());
+        }
+        let there = |target: &Target| matches!(target, Target::Replace(_));
+        if all.iter().any(there) {
+            all.retain(there);
+        } else if !faults.is_empty() {
+            return Err(faults.swap_remove(0));
+        }
+        found.extend(all);
+        Ok(())
     }
 
     #[expect(

@@ -105,11 +105,19 @@ pub struct State {
     pub director: Matrices,
     /// Angular velocities, material frame \[rad/s\].
     pub omega: Vectors,
+    /// What rod laws remember, each in a range of its own.
+    pub memory: Vec<f64>,
 }
 
 impl State {
     /// Becomes the same as `other`, without allocating if it has its size.
     pub fn copy_from(&mut self, other: &Self) {
+        self.pose_as(other);
+        self.memory.clone_from(&other.memory);
+    }
+
+    /// Takes positions, frames and rates of `other`, but not what its laws remember.
+    pub(crate) fn pose_as(&mut self, other: &Self) {
         self.position.copy_from(&other.position);
         self.velocity.copy_from(&other.velocity);
         self.director.copy_from(&other.director);
@@ -253,6 +261,13 @@ impl Bodies {
             });
         }
         self.push_layout(&rod.name, first, n, caps, directors)
+    }
+
+    /// Rest lengths and rigidities as built, for laws to start from.
+    pub(crate) fn as_built(&mut self) {
+        self.rest_length.copy_from(&self.reference_length);
+        self.shear_stretch.copy_from(&self.built_shear_stretch);
+        self.bend_twist.copy_from(&self.built_bend_twist);
     }
 
     /// Adds a rigid body at rest and returns its index.

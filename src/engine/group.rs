@@ -22,11 +22,25 @@ pub(crate) struct Hooked<T: ?Sized> {
     pub(crate) hook: Box<T>,
 }
 
+/// A rod law and where in the state its memory is.
+pub(crate) struct HookedLaw {
+    pub(crate) name: String,
+    pub(crate) body: usize,
+    pub(crate) hook: Box<dyn RodLaw>,
+    pub(crate) memory: (usize, usize),
+}
+
+impl HookedLaw {
+    fn view<'a>(&self, bodies: &'a mut Bodies) -> LawView<'a> {
+        LawView::new(bodies, self.body, self.memory)
+    }
+}
+
 /// Bodies that are computed together, with the hooks that act on one body alone.
 #[derive(Default)]
 pub(crate) struct Group {
     pub(crate) bodies: Bodies,
-    pub(crate) laws: Vec<Hooked<dyn RodLaw>>,
+    pub(crate) laws: Vec<HookedLaw>,
     pub(crate) forcing: Vec<Hooked<dyn Forcing>>,
     pub(crate) boundary: Vec<Hooked<dyn BoundaryCondition>>,
     pub(crate) damping: Vec<Hooked<dyn Damping>>,
@@ -68,16 +82,26 @@ impl Group {
 
     fn internal_loads(&mut self, now: &Moment<'_>) {
         self.bodies.sweep(Pass::Measure);
+        if !self.laws.is_empty() {
+            self.bodies.as_built();
+        }
         for l in &self.laws {
-            l.hook
-                .rest(now, &mut LawView::new(&mut self.bodies, l.body));
+            l.hook.rest(now, &mut l.view(&mut self.bodies));
         }
         self.bodies.sweep(Pass::Strain);
         for l in &self.laws {
-            l.hook
-                .stress(now, &mut LawView::new(&mut self.bodies, l.body));
+            l.hook.stress(now, &mut l.view(&mut self.bodies));
         }
         self.bodies.sweep(Pass::Loads);
+    }
+
+    /// Lets laws remember the present state, `dt` \[s\] after the one before.
+    pub(crate) fn remember(&mut self, now: &Moment<'_>, dt: f64) {
+        for l in &self.laws {
+            if l.memory.1 > 0 {
+                l.hook.remember(now, dt, &mut l.view(&mut self.bodies));
+            }
+        }
     }
 
     /// Rates after a step under the present loads, damped and held.
@@ -96,7 +120,7 @@ impl Group {
         let finite = |b: &Bodies| b.force.all_finite() && b.torque.all_finite();
         if !finite(&self.bodies) {
             let bodies = &self.bodies;
-            let spoiled = |l: &&Hooked<dyn RodLaw>| {
+            let spoiled = |l: &&HookedLaw| {
                 let layout = &bodies.layouts()[l.body];
                 let element = |k: usize| {
                     !bodies.rest_length[k].is_finite()

@@ -1,6 +1,6 @@
 //! The traits through which everything specific enters. Each has one method that must be written.
 
-use crate::inputs::{Inputs, Moment};
+use crate::inputs::{Inputs, Moment, Series};
 use crate::site::{JointLoad, Site};
 use crate::view::{Body, LawView, LoadView, PoseView, RateView};
 
@@ -15,11 +15,21 @@ pub struct Setting<'a> {
 /// Constitutive law of a rod. Without one a rod is linear elastic with the rigidities that it was built with.
 pub trait RodLaw: Send + Sync {
     /// Sets rest lengths, rest strains and rigidities from the present lengths, rotations and tangents.
-    /// Strains, stresses and couples are still those of the evaluation before.
+    /// Strains, stresses and couples are still those of the evaluation before; rest lengths and rigidities are as built,
+    /// or as the laws before this one have left them.
     fn rest(&self, now: &Moment<'_>, rod: &mut LawView<'_>);
 
     /// Adds to the stresses and couples that the engine has computed from strains and rigidities.
     fn stress(&self, _now: &Moment<'_>, _rod: &mut LawView<'_>) {}
+
+    /// How many numbers the law remembers of a rod (viscous strains, largest strains so far); all are 0 at first.
+    fn memory(&self, _rod: &Body<'_>) -> usize {
+        0
+    }
+
+    /// Brings what the law remembers up to date at a state that was reached, `dt` \[s\] after the one before. It is saved
+    /// and restored with the state.
+    fn remember(&self, _now: &Moment<'_>, _dt: f64, _rod: &mut LawView<'_>) {}
 
     /// What is wrong with the law on this body, in words.
     fn check(&self, _setting: &Setting<'_>) -> Result<(), String> {
@@ -89,6 +99,15 @@ pub trait Actuation: Send + Sync {
     }
 }
 
+/// What lies between an input as it is given and as the robot has it: play, a lag, a gear's error.
+pub trait Drive: Send + Sync {
+    /// The input that arrives.
+    ///
+    /// # Errors
+    /// In words, if there is none.
+    fn transmit(&self, given: &Series) -> Result<Series, String>;
+}
+
 /// A time at which an actuation sequence is at rest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dwell {
@@ -149,5 +168,6 @@ hooks! {
     Joint: "joint" in "joints",
     Damping: "damping" in "damping",
     Actuation: "actuation" in "inputs",
+    Drive: "drive" in "drives",
     Callback: "callback" in "callbacks",
 }

@@ -49,6 +49,16 @@ impl Series {
         v0 + (v1 - v0) * (time - t0) / (t1 - t0)
     }
 
+    /// Times \[s\], increasing.
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// Values at these times.
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+
     /// First and last time \[s\].
     pub fn span(&self) -> (f64, f64) {
         (self.times[0], self.times[self.times.len() - 1])
@@ -88,6 +98,13 @@ impl Inputs {
             .iter()
             .find(|(known, _)| known == name)
             .map(|(_, series)| series)
+    }
+
+    /// Puts another series in the place of input `name`.
+    pub fn replace(&mut self, name: &str, series: Series) {
+        if let Some((_, old)) = self.channels.iter_mut().find(|(known, _)| known == name) {
+            *old = series;
+        }
     }
 
     /// Names in the order given.

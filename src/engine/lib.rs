@@ -37,8 +37,8 @@ pub use bodies::{Cell, End};
 pub use cylinder::Cylinder;
 pub use group::BodyId;
 pub use hooks::{
-    Actuation, BoundaryCondition, Callback, CallbackError, Damping, Dwell, Forcing, Joint, RodLaw,
-    Setting, Snapshot,
+    Actuation, BoundaryCondition, Callback, CallbackError, Damping, Drive, Dwell, Forcing, Joint,
+    RodLaw, Setting, Snapshot,
 };
 pub use inputs::{Inputs, Moment, Series, Signal};
 pub use rod::{Rod, Section};

@@ -3,7 +3,7 @@
 use crate::bodies::State;
 use crate::connection::Connection;
 use crate::cylinder::Cylinder;
-use crate::group::{BodyId, Group, Hooked, each};
+use crate::group::{BodyId, Group, Hooked, HookedLaw, each};
 use crate::hooks::{BoundaryCondition, Damping, Forcing, Joint, RodLaw, Setting};
 use crate::inputs::{Inputs, Moment};
 use crate::rod::Rod;
@@ -79,7 +79,17 @@ impl System {
             return Err(format!("`{}` is rigid, a rod law needs a rod", body.name()));
         }
         hook.check(&self.setting(id))?;
-        self.groups[id.group].laws.push(hooked(name, id, hook));
+        let count = hook.memory(&self.body(id));
+        let group = &mut self.groups[id.group];
+        let memory = &mut group.bodies.state.memory;
+        let first = memory.len();
+        memory.resize(first + count, 0.0);
+        group.laws.push(HookedLaw {
+            name: name.into(),
+            body: id.index,
+            hook,
+            memory: (first, count),
+        });
         Ok(())
     }
 
@@ -212,6 +222,15 @@ impl System {
         }
     }
 
+    /// Takes the poses, rates and time of a state that a system of the same bodies has saved; what rod laws remember
+    /// stays. A solver that goes on from there has a good guess.
+    pub fn pose_as(&mut self, saved: &Saved) {
+        self.time = saved.time;
+        for (group, state) in self.groups.iter_mut().zip(&saved.states) {
+            group.bodies.state.pose_as(state);
+        }
+    }
+
     /// Starts the clock at `time` \[s\] without moving anything.
     pub fn set_time(&mut self, time: f64) {
         self.time = time;
@@ -234,6 +253,18 @@ impl System {
         each(&mut self.groups, |group| group.loads(&now));
         for joint in &self.joints {
             joint.apply(&mut self.groups, &now);
+        }
+    }
+
+    /// Lets rod laws remember the present state, reached `dt` \[s\] after the one before. Solvers do it for every state
+    /// that they accept.
+    pub(crate) fn remember(&mut self, dt: f64) {
+        let now = Moment {
+            time: self.time,
+            inputs: &self.inputs,
+        };
+        for group in &mut self.groups {
+            group.remember(&now, dt);
         }
     }
 

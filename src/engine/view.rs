@@ -200,10 +200,45 @@ macro_rules! writing_view {
     };
 }
 
-writing_view! {
-    /// What a rod law sees and sets.
-    LawView
+/// What a rod law sees and sets.
+pub struct LawView<'a> {
+    bodies: &'a mut Bodies,
+    index: usize,
+    /// First number and count of what the law remembers.
+    memory: (usize, usize),
 }
+
+impl<'a> LawView<'a> {
+    pub(crate) fn new(bodies: &'a mut Bodies, index: usize, memory: (usize, usize)) -> Self {
+        Self {
+            bodies,
+            index,
+            memory,
+        }
+    }
+
+    /// What the law remembers of this rod.
+    pub fn memory(&self) -> &[f64] {
+        let (first, count) = self.memory;
+        &self.bodies.state.memory[first..first + count]
+    }
+
+    /// What the law remembers, to be changed in [`RodLaw::remember`](crate::RodLaw::remember) only.
+    pub fn memory_mut(&mut self) -> &mut [f64] {
+        let (first, count) = self.memory;
+        &mut self.bodies.state.memory[first..first + count]
+    }
+}
+
+impl ReadBody for LawView<'_> {
+    fn bodies(&self) -> &Bodies {
+        self.bodies
+    }
+    fn index(&self) -> usize {
+        self.index
+    }
+}
+
 writing_view! {
     /// What a forcing sees and adds to.
     LoadView
@@ -218,6 +253,14 @@ writing_view! {
 }
 
 impl LawView<'_> {
+    /// Present rigidities of element `e`, as the laws before have left them: shear, shear, axial \[N\].
+    pub fn shear_stretch(&self, e: usize) -> Vector3<f64> {
+        self.bodies.shear_stretch.get(self.at(e))
+    }
+    /// Present rigidities of cell `v`, as the laws before have left them: bending, bending, twist \[N m2\].
+    pub fn bend_twist(&self, v: usize) -> Vector3<f64> {
+        self.bodies.bend_twist.get(self.at(v))
+    }
     /// Sets the rest length of element `e` \[m\].
     pub fn set_rest_length(&mut self, e: usize, length: f64) {
         let k = self.at(e);

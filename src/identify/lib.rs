@@ -28,12 +28,14 @@
 //! # Ok::<(), auxetica_identify::FitError>(())
 //! ```
 
+mod effect;
 mod fit;
 mod identifiability;
 mod least_squares;
 mod parameter;
 mod residuals;
 
+pub use effect::{Effect, Hooked, Quantity, Robot, Variant};
 pub use fit::{Estimate, Fit, FitError, Options, Watch, fit};
 pub use parameter::Parameter;
 pub use residuals::{Residuals, central_differences};

@@ -3,7 +3,7 @@
 use super::{Applied, Model, Scenario, Targets, Watcher, targets::name_and_place};
 use crate::group::BodyId;
 use crate::hooks::{
-    Actuation, BoundaryCondition, Callback, Damping, Dwell, Forcing, Joint, RodLaw,
+    Actuation, BoundaryCondition, Callback, Damping, Drive, Dwell, Forcing, Joint, RodLaw,
 };
 use crate::inputs::Inputs;
 use crate::site::Place;
@@ -41,6 +41,7 @@ impl Model {
             solver: scenario.solver.clone(),
             dwells,
             markers: scenario.markers,
+            capture: scenario.capture,
             watchers,
             stability_limit: None,
         })
@@ -68,7 +69,31 @@ impl Builder<'_> {
                 own = self.problems.collect(inputs).unwrap_or_default();
             }
         }
-        self.system = System::new(given.unwrap_or(own));
+        let mut inputs = given.unwrap_or(own);
+        for entry in &scenario.drives {
+            let built = self.source.build::<dyn Drive>(entry.apply);
+            let Some(drive) = self.problems.collect(built) else {
+                continue;
+            };
+            let wanted = match &entry.on {
+                Targets::All => inputs.names().map(str::to_owned).collect(),
+                Targets::Named(names) => names.clone(),
+            };
+            for name in wanted {
+                let arrived = match inputs.get(&name) {
+                    Some(given) => drive.transmit(given),
+                    None => Err(format!(
+                        "there is no input `{name}`; {}",
+                        remedy(&name, &inputs.names().collect::<Vec<_>>(), "inputs")
+                    )),
+                };
+                match arrived {
+                    Ok(series) => inputs.replace(&name, series),
+                    Err(e) => self.refuse_in(entry.apply, e),
+                }
+            }
+        }
+        self.system = System::new(inputs);
         dwells
     }
 

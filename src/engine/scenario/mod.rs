@@ -48,6 +48,12 @@ pub struct Scenario<'a> {
     /// The source of named inputs.
     #[serde(default, borrow)]
     pub inputs: Option<&'a RawValue>,
+    /// What lies between the inputs as given and as they arrive, in the order of the list.
+    #[serde(default, borrow)]
+    pub drives: Vec<Applied<'a>>,
+    /// How motion capture sees the robot.
+    #[serde(default)]
+    pub capture: Capture,
     /// Named points that recordings are compared at.
     #[serde(default)]
     pub markers: Vec<Marker>,
@@ -104,6 +110,27 @@ fn hundredth() -> Positive {
     Positive::new(0.01).expect("the default is positive")
 }
 
+/// How motion capture sees the robot.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Capture {
+    /// Rotation vector of what is seen, about the origin, against the base frame \[rad\].
+    pub turn: Option<Vec3>,
+    /// Shift of what is seen \[m\].
+    pub shift: Option<Vec3>,
+}
+
+/// What a marker's pose counts from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+pub enum Datum {
+    /// Markers sit anywhere on their body, at any angle: rotations count from rest, and the simulated point is put where
+    /// the recorded one is at rest.
+    #[default]
+    Rest,
+    /// Markers sit exactly where the scenario says, and their frame is the body's.
+    Body,
+}
+
 /// A point fixed to a body, with the body's frame there.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -118,6 +145,9 @@ pub struct Marker {
     /// Offset from there, in the frame there \[m\].
     #[serde(default = "origin")]
     pub offset: Vec3,
+    /// What its recorded pose counts from.
+    #[serde(default)]
+    pub datum: Datum,
 }
 
 fn origin() -> Vec3 {

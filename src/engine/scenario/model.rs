@@ -1,6 +1,6 @@
 //! A scenario ready to be solved.
 
-use super::{Marker, Solver};
+use super::{Capture, Marker, Solver};
 use crate::group::BodyId;
 use crate::hooks::{Callback, Dwell};
 use crate::rotation;
@@ -32,6 +32,8 @@ pub struct Model {
     pub dwells: Vec<Dwell>,
     /// Named points.
     pub markers: Vec<Marker>,
+    /// How motion capture sees them.
+    pub capture: Capture,
     /// Callbacks.
     pub watchers: Vec<Watcher>,
     /// Stability limit \[s\] at the start, once it has been asked for.

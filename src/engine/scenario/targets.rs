@@ -14,6 +14,16 @@ pub enum Targets {
     Named(Vec<String>),
 }
 
+impl Targets {
+    /// The names, none for all bodies.
+    pub fn names(&self) -> &[String] {
+        match self {
+            Self::All => &[],
+            Self::Named(names) => names,
+        }
+    }
+}
+
 impl<'de> Deserialize<'de> for Targets {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Names;

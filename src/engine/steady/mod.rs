@@ -155,6 +155,7 @@ impl SteadySolver {
                 system.time = start_time;
                 return Err(NotSteady { time: to, reason });
             }
+            system.remember(to - from);
             if whole {
                 return Ok(report);
             }

@@ -17,10 +17,10 @@ impl Poses {
         Self(system.groups.iter().map(group).collect())
     }
 
-    /// Moves a system there.
+    /// Moves a system there; what its laws remember stays.
     pub(super) fn set(&self, system: &mut System) {
         for (group, (state, walls)) in system.groups.iter_mut().zip(&self.0) {
-            group.bodies.state.clone_from(state);
+            group.bodies.state.pose_as(state);
             group.bodies.walls.clone_from(walls);
         }
     }

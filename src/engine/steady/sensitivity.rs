@@ -49,6 +49,16 @@ impl Sensitivities {
         Ok(Self { parameters })
     }
 
+    /// Derivatives with respect to any change of a scenario: for each, a step and the models in which the number is
+    /// larger and smaller by that step. All have the bodies of the model that is solved.
+    pub fn between(pairs: Vec<(f64, [Model; 2])>) -> Self {
+        let parameters = pairs.into_iter();
+        let parameters = parameters.map(|(step, models)| Parameter { step, models });
+        Self {
+            parameters: parameters.collect(),
+        }
+    }
+
     /// Derivatives of `outputs` (rows) with respect to the parameters (columns, in the order of the paths) at the
     /// steady state of `system` that `solver` has found. `outputs` reads what it likes of a model at a steady state:
     /// positions, frames, strains, forces and couples are those of an evaluation there.
@@ -171,6 +181,8 @@ impl Parameter {
             solver.unknowns.displace_all(&mut system.groups, &change);
             hold(system);
             system.evaluate();
+            // what laws remember depends on the number, too
+            system.remember(0.0);
             outputs(model)
         };
         let (forth, back) = (values(more, self.step), values(less, -self.step));

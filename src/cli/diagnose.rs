@@ -1,0 +1,165 @@
+//! `auxetica diagnose`
+
+use super::progress::Meter;
+use super::table::table;
+use super::{Failure, ScenarioArgs, print, write_whole};
+use crate::diagnose::verdict::{Diagnosis, Estimated, Fitted};
+use crate::diagnose::{Request, diagnose};
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+
+#[derive(clap::Args)]
+pub(super) struct Options {
+    #[command(flatten)]
+    scenario: ScenarioArgs,
+    /// Recordings to train on, two at least.
+    #[arg(long, value_name = "DIR", num_args = 1.., required = true)]
+    train: Vec<PathBuf>,
+    /// Recordings that nothing is fitted to, to judge by.
+    #[arg(long, value_name = "DIR", num_args = 1..)]
+    holdout: Vec<PathBuf>,
+    /// Effects to try, separated by commas; all if left out (`auxetica plugins` lists them).
+    #[arg(long, value_name = "LIST", value_delimiter = ',')]
+    effects: Vec<String>,
+    /// Write the diagnosis as JSON, to a file or to stdout if `-`.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write a page for the browser.
+    #[arg(long, value_name = "FILE.html")]
+    report: Option<PathBuf>,
+    /// Write the scenario with the named effects.
+    #[arg(long, value_name = "FILE.ron")]
+    write_scenario: Option<PathBuf>,
+    /// Seed of the calibration's second start.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Threads; all cores if left out.
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
+    let source = options.scenario.load()?;
+    let request = Request {
+        source: &source,
+        train: &options.train,
+        holdout: &options.holdout,
+        effects: &options.effects,
+        seed: options.seed,
+    };
+    let meter = Mutex::new(Meter::new("diagnosing", quiet));
+    let told = |done: f64| {
+        if let Ok(mut meter) = meter.lock() {
+            let _ = meter.update(done); // an interrupt ends the process at its second time
+        }
+    };
+    let work = || diagnose(&request, &told);
+    let (diagnosis, augmented) = match options.jobs {
+        None => work()?,
+        Some(jobs) => {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(jobs.max(1))
+                .build();
+            let pool = pool.map_err(|e| {
+                crate::compare::CompareError::Unfit(format!(
+                    "no {jobs} threads could be started: {e}"
+                ))
+            })?;
+            pool.install(work)?
+        }
+    };
+    drop(meter);
+    let to_stdout = options.json.as_deref() == Some(Path::new("-"));
+    if !to_stdout {
+        print(&show(&diagnosis))?;
+    }
+    if let Some(path) = &options.json {
+        let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
+        if to_stdout {
+            print(&text)?;
+        } else {
+            write_whole(path, &(text + "\n"))?;
+        }
+    }
+    if let Some(path) = &options.write_scenario {
+        write_whole(path, augmented.text())?;
+    }
+    if let Some(path) = &options.report {
+        write_whole(
+            path,
+            &crate::diagnose::page::page(&diagnosis, source.name()),
+        )?;
+    }
+    Ok(())
+}
+
+/// The diagnosis for people.
+fn show(d: &Diagnosis) -> String {
+    let mut text = format!("{}\n\n", d.words);
+    for effect in &d.effects {
+        text += &format!(
+            "{} ({}), probability {:.2}\n  {}\n",
+            effect.id, effect.words, effect.probability, effect.equation
+        );
+        text += &numbers(&effect.parameters);
+    }
+    if let Some(e) = &d.experiment {
+        text += &format!(
+            "to tell {} apart: {}\n",
+            e.discriminates.join(", "),
+            e.words
+        );
+    }
+    text += &format!("\nwhere: {}\n", d.location.state);
+    for c in d.location.channels.iter().take(3) {
+        text += &format!("  {} {}: {:.0} %\n", c.body, c.channel, 100.0 * c.share);
+    }
+    text += &format!("\n{}\n", results(&d.baseline, &d.augmented));
+    text += &format!(
+        "floor {:.3} mm, {:.2} mrad; mean squared residual {:.2} before, {:.2} after; {:.1} s",
+        d.floor.position_mm,
+        d.floor.rotation_mrad,
+        d.baseline.reduced_chi2,
+        d.augmented.reduced_chi2,
+        d.seconds
+    );
+    text
+}
+
+fn numbers(parameters: &[Estimated]) -> String {
+    let line = |p: &Estimated| {
+        format!(
+            "  {} = {:.4} ({:.4} .. {:.4}) {}\n",
+            p.name, p.value, p.ci95[0], p.ci95[1], p.unit
+        )
+    };
+    parameters.iter().map(line).collect()
+}
+
+fn results(before: &Fitted, after: &Fitted) -> String {
+    let rows = before
+        .recordings
+        .iter()
+        .zip(&after.recordings)
+        .map(|(b, a)| {
+            vec![
+                b.name.clone(),
+                b.role.to_owned(),
+                format!("{:.3}", b.position_rmse_mm),
+                format!("{:.3}", a.position_rmse_mm),
+                format!("{:.2}", b.rotation_rmse_mrad),
+                format!("{:.2}", a.rotation_rmse_mrad),
+            ]
+        });
+    table(
+        &[
+            "recording",
+            "role",
+            "before [mm]",
+            "after [mm]",
+            "before [mrad]",
+            "after [mrad]",
+        ],
+        rows,
+    )
+}

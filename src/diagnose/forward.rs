@@ -1,0 +1,259 @@
+//! From a scenario to the residuals of recordings.
+
+use super::samples::{Phase, Samples};
+use crate::compare::CompareError;
+use crate::config::Source;
+use crate::engine::scenario::{Capture, Datum, Marker};
+use crate::engine::system::Saved;
+use crate::engine::{Model, RunError, Sensitivities, SteadySolver};
+use crate::recordings::Pose;
+use nalgebra::{DMatrix, Rotation3, UnitQuaternion, Vector3};
+
+/// Components of a sample: position and rotation of platform and ring.
+pub const CHANNELS: usize = 12;
+/// Names of the components.
+pub const NAMES: [&str; CHANNELS] = [
+    "platform x",
+    "platform y",
+    "platform z",
+    "platform turn x",
+    "platform turn y",
+    "platform turn z",
+    "ring x",
+    "ring y",
+    "ring z",
+    "ring turn x",
+    "ring turn y",
+    "ring turn z",
+];
+
+/// A scenario's model under the motor angles of a recording, and its markers.
+pub struct Shown {
+    model: Model,
+    markers: [Marker; 2],
+    /// Poses of the markers at rest, where they count from there.
+    rest: [Pose; 2],
+}
+
+impl Shown {
+    /// Builds the scenario.
+    ///
+    /// # Errors
+    /// If it can't be built, or has no rest where markers count from rest.
+    pub fn new(source: &Source, samples: &Samples) -> Result<Self, CompareError> {
+        let mut model = Model::build(source, Some(samples.inputs.clone()))?;
+        let markers = crate::compare::markers(&model)?;
+        model.system.set_time(samples.rest);
+        if markers.iter().any(|marker| marker.datum == Datum::Rest) {
+            let options = model.solver.steady_options();
+            let mut solver =
+                SteadySolver::new(&mut model.system, options).map_err(RunError::from)?;
+            solver
+                .advance(&mut model.system, samples.rest)
+                .map_err(RunError::from)?;
+        }
+        let rest = [0, 1].map(|b| seen(&model, &markers[b]));
+        Ok(Self {
+            model,
+            markers,
+            rest,
+        })
+    }
+}
+
+/// A scenario that is solved under the motor angles of a recording.
+pub struct Run {
+    shown: Shown,
+    solver: SteadySolver,
+}
+
+/// States of all samples, from which others are found faster.
+pub type Guide = Vec<Saved>;
+
+impl Run {
+    /// Builds the scenario and finds its rest.
+    ///
+    /// # Errors
+    /// If the scenario can't be built or has no rest.
+    pub fn new(source: &Source, samples: &Samples) -> Result<Self, CompareError> {
+        let mut shown = Shown::new(source, samples)?;
+        let system = &mut shown.model.system;
+        let options = shown.model.solver.steady_options();
+        let mut solver = SteadySolver::new(system, options).map_err(RunError::from)?;
+        solver
+            .advance(system, samples.rest)
+            .map_err(RunError::from)?;
+        Ok(Self { shown, solver })
+    }
+
+    /// Goes to sample `i`, by way of the guide's state if there is one.
+    fn go(
+        &mut self,
+        samples: &Samples,
+        i: usize,
+        guide: Option<&Guide>,
+    ) -> Result<(), CompareError> {
+        let time = samples.list[i].time;
+        let system = &mut self.shown.model.system;
+        if let Some(guide) = guide {
+            let before = system.save();
+            system.pose_as(&guide[i]);
+            if self.solver.advance(system, time).is_ok() {
+                return Ok(());
+            }
+            system.restore(&before);
+        }
+        self.solver.advance(system, time).map_err(RunError::from)?;
+        Ok(())
+    }
+
+    /// Simulated less recorded at every sample, and the states.
+    ///
+    /// # Errors
+    /// If a sample has no steady state.
+    pub fn all(
+        &mut self,
+        samples: &Samples,
+        guide: Option<&Guide>,
+    ) -> Result<(Vec<f64>, Guide), CompareError> {
+        let (mut apart, mut states) = (Vec::new(), Vec::new());
+        for i in 0..samples.list.len() {
+            self.go(samples, i, guide)?;
+            apart.extend(difference(
+                &self.shown.model,
+                &self.shown.markers,
+                &self.shown.rest,
+                samples,
+                i,
+            ));
+            states.push(self.shown.model.system.save());
+        }
+        Ok((apart, states))
+    }
+
+    /// Simulated less recorded, and derivatives by numbers of which `pairs` has the steps and the models with larger and
+    /// smaller ones.
+    ///
+    /// # Errors
+    /// If a sample has no steady state, or a singular one.
+    pub fn derivatives(
+        &mut self,
+        samples: &Samples,
+        guide: Option<&Guide>,
+        pairs: Vec<(f64, [Shown; 2])>,
+    ) -> Result<(Vec<f64>, DMatrix<f64>), CompareError> {
+        let runs = pairs.iter().flat_map(|(_, runs)| runs);
+        let seen: Vec<_> = runs.map(|run| (run.markers.clone(), run.rest)).collect();
+        let columns = pairs.len();
+        let models = pairs
+            .into_iter()
+            .map(|(step, [a, b])| (step, [a.model, b.model]));
+        let mut sensitivities = Sensitivities::between(models.collect());
+        let mut apart = Vec::new();
+        let mut rows: Vec<f64> = Vec::new();
+        for i in 0..samples.list.len() {
+            self.go(samples, i, guide)?;
+            apart.extend(difference(
+                &self.shown.model,
+                &self.shown.markers,
+                &self.shown.rest,
+                samples,
+                i,
+            ));
+            let call = std::cell::Cell::new(0);
+            let outputs = |model: &Model| {
+                let (markers, rest) = &seen[call.replace(call.get() + 1)];
+                difference(model, markers, rest, samples, i).to_vec()
+            };
+            let slopes = sensitivities
+                .at(&mut self.solver, &mut self.shown.model.system, &outputs)
+                .map_err(RunError::from)?;
+            rows.extend(slopes.transpose().iter());
+        }
+        let rows = DMatrix::from_row_slice(apart.len(), columns, &rows);
+        Ok((apart, rows))
+    }
+}
+
+/// Simulated less recorded at one sample: positions \[m\], rotation vectors \[rad\], in the base frame.
+fn difference(
+    model: &Model,
+    markers: &[Marker; 2],
+    rest: &[Pose; 2],
+    samples: &Samples,
+    i: usize,
+) -> [f64; CHANNELS] {
+    let recorded = [&samples.reference.platform, &samples.reference.ring];
+    let sample = &samples.list[i];
+    let mut all = [0.0; CHANNELS];
+    for b in [0, 1] {
+        let now = seen(model, &markers[b]);
+        let shown = match markers[b].datum {
+            Datum::Body => now,
+            Datum::Rest => {
+                let turn = now.rotation * rest[b].rotation.inverse();
+                let lever = recorded[b].translation.vector - rest[b].translation.vector;
+                let point = now.translation.vector + turn * lever;
+                Pose::from_parts(point.into(), turn * recorded[b].rotation)
+            }
+        };
+        let apart = shown.translation.vector - sample.poses[b].translation.vector;
+        let turn = (shown.rotation * sample.poses[b].rotation.inverse()).scaled_axis();
+        all[6 * b..6 * b + 3].copy_from_slice(apart.as_slice());
+        all[6 * b + 3..6 * b + 6].copy_from_slice(turn.as_slice());
+    }
+    all
+}
+
+/// Simulated less recorded at every sample, `CHANNELS` numbers each.
+///
+/// # Errors
+/// If the scenario can't be built, or a sample has no steady state.
+pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
+    Ok(Run::new(source, samples)?.all(samples, None)?.0)
+}
+
+/// The pose of a marker as motion capture sees it.
+fn seen(model: &Model, marker: &Marker) -> Pose {
+    let (point, frame) = model
+        .marker_pose(marker)
+        .expect("the model was built with the marker's body");
+    let rotation = Rotation3::from_matrix_unchecked(frame.transpose());
+    let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+    let Capture { turn, shift } = &model.capture;
+    let vector =
+        |v: &Option<crate::config::Vec3>| v.map_or(Vector3::zeros(), |v| Vector3::from(*v));
+    let turn = UnitQuaternion::from_scaled_axis(vector(turn));
+    Pose::from_parts((turn * point + vector(shift)).into(), turn * rotation)
+}
+
+/// Residuals in standard deviations, of several recordings one after the other; `floor` \[m, rad\] is what no model is
+/// asked to explain.
+pub fn whitened(differences: &[f64], samples: &Samples, floor: (f64, f64)) -> Vec<f64> {
+    let mut white = Vec::with_capacity(differences.len());
+    for (sample, values) in samples.list.iter().zip(differences.chunks_exact(CHANNELS)) {
+        for (c, value) in values.iter().enumerate() {
+            let b = c / 6;
+            let deviation = if c % 6 < 3 {
+                sample.position_deviation[b].hypot(floor.0)
+            } else {
+                sample.rotation_deviation[b].hypot(floor.1)
+            };
+            white.push(value / deviation);
+        }
+    }
+    white
+}
+
+/// Root mean squares over settled samples of the platform's distance \[mm\] and rotation \[mrad\].
+pub fn platform_rms(differences: &[f64], samples: &Samples) -> (f64, f64) {
+    let settled = samples.list.iter().zip(differences.chunks_exact(CHANNELS));
+    let settled: Vec<_> = settled.filter(|(s, _)| s.phase != Phase::Moving).collect();
+    let rms = |from: usize| {
+        let squares = settled
+            .iter()
+            .map(|(_, d)| d[from..from + 3].iter().map(|x| x * x).sum::<f64>());
+        1e3 * (squares.sum::<f64>() / settled.len() as f64).sqrt()
+    };
+    (rms(0), rms(3))
+}

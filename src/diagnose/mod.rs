@@ -1,0 +1,520 @@
+//! When simulation and recordings differ: where, and which physics was left out.
+//!
+//! Recordings are reduced to samples ([`samples`]), a scenario to residuals there ([`forward`]). The scenario's own
+//! uncertain numbers are calibrated first, since they hide physics; then every effect that is linked into the program is
+//! added in turn, linearised, and the best are fitted together with those numbers ([`search`]). An effect is named if it
+//! explains enough on the recordings that are trained on, worsens none of them, and holds on recordings held out.
+
+pub mod forward;
+mod locate;
+pub mod page;
+pub mod samples;
+pub mod search;
+pub mod trial;
+pub mod verdict;
+
+use crate::compare::CompareError;
+use crate::config::{Problems, Source};
+use crate::identify::{Effect, Parameter, Robot};
+use forward::{CHANNELS, differences, platform_rms, whitened};
+use rand_pcg::Pcg64Mcg;
+use rand_pcg::rand_core::{Rng, SeedableRng};
+use samples::{Phase, Samples};
+use std::path::PathBuf;
+use trial::{Linear, Trial};
+use verdict::{Alternative, Diagnosis, Estimated, Experiment, Fitted, Floor, Kind, Named, Scored};
+
+/// What no model is asked to explain, since meshes differ by as much: position [m], rotation [rad].
+const NUMERICS: (f64, f64) = (3e-5, 3e-4);
+/// Mean squared residual up to which there is nothing to explain.
+const SOUND: f64 = 1.5;
+/// Share of chi2 that an effect must explain to be named.
+const GAIN: f64 = 0.25;
+/// Share by which chi2 of a single recording, trained on or held out, may grow when an effect is added.
+const WORSE: f64 = 0.05;
+/// Most effects that are named together.
+const MOST: usize = 3;
+/// Share of the mismatch beyond noise that the named effects must explain.
+const EXPLAINED: f64 = 0.6;
+/// Shares of chi2 within which two effects can't be told apart, beside [`ODDS`].
+const ALIKE: f64 = 0.1;
+/// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
+const ODDS: f64 = 6.0;
+/// Mean platform error [mm] of the calibrated scenario beyond which a recording is taken for that of another robot.
+const OTHER_ROBOT: f64 = 40.0;
+
+/// What is diagnosed and how.
+pub struct Request<'a> {
+    /// The scenario, which declares its uncertain numbers.
+    pub source: &'a Source,
+    /// Folders of the recordings to train on.
+    pub train: &'a [PathBuf],
+    /// Folders of the recordings to judge by.
+    pub holdout: &'a [PathBuf],
+    /// Identifiers of the effects to try; all if empty.
+    pub effects: &'a [String],
+    /// Seed of the second start of the calibration.
+    pub seed: u64,
+}
+
+/// Why there is no diagnosis.
+#[derive(Debug, thiserror::Error)]
+pub enum DiagnoseError {
+    /// The scenario is wrong, or declares nothing to calibrate.
+    #[error(transparent)]
+    Scenario(#[from] Problems),
+    /// A recording can't be used.
+    #[error(transparent)]
+    Recording(#[from] CompareError),
+    /// The request makes no sense.
+    #[error("{0}")]
+    Unfit(String),
+}
+
+/// Diagnoses. Returns the scenario with the named effects, too.
+///
+/// # Errors
+/// If scenario or recordings can't be used, or have nothing to do with each other.
+pub fn diagnose(
+    request: &Request<'_>,
+    told: &(dyn Fn(f64) + Sync),
+) -> Result<(Diagnosis, Source), DiagnoseError> {
+    let start = std::time::Instant::now();
+    let own = Parameter::declared(request.source)?;
+    let (train, holdout) = read(request)?;
+    let effects = chosen(request.effects)?;
+    let robot = Robot::of(request.source)?;
+    let forms = search::forms(&effects, &robot);
+    let unfit = |e: String| {
+        DiagnoseError::Unfit(format!("the scenario can't follow these recordings: {e}"))
+    };
+
+    let empty = Trial {
+        source: request.source,
+        own: &own,
+        forms: Vec::new(),
+        data: &train,
+        floor: NUMERICS,
+        guides: &[],
+    };
+    let nominal: Vec<f64> = own.iter().map(|p| p.nominal).collect();
+    let (_, guides) = empty.evaluate(&nominal).map_err(unfit)?;
+    let guided = Trial {
+        guides: &guides,
+        ..empty.clone()
+    };
+    let baseline = calibrate(&guided, &nominal, request.seed).map_err(unfit)?;
+    told(0.1);
+
+    let calibrated = empty.scenario(&baseline.at).map_err(unfit)?;
+    let before = Scores::of(&calibrated, &train, &holdout)?;
+    let worst = before.train.iter().map(|s| s.rms.0).fold(0.0, f64::max);
+    if worst > OTHER_ROBOT {
+        return Err(DiagnoseError::Unfit(format!(
+            "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, or its motors are in \
+             another order; give the scenario of the robot that was recorded"
+        )));
+    }
+    let measured = count(&train);
+    let mut here = baseline.clone();
+    let mut trial = empty.clone();
+    let mut scores = before.clone();
+    let (mut named, mut used): (Vec<(usize, f64)>, Vec<usize>) = (Vec::new(), Vec::new());
+    let mut alternatives = Vec::new();
+    for round in 0..MOST {
+        if here.chi2() / measured < SOUND {
+            break;
+        }
+        let (_, guides) = trial.evaluate(&here.at).map_err(unfit)?;
+        let share = |done: f64| told(0.1 + 0.85 * (round as f64 + done) / MOST as f64);
+        let found = search::round(&trial, &here, &guides, &forms, &used, &share);
+        let scale = found
+            .first()
+            .map_or(1.0, |c| (c.fit.chi2() / measured).max(1.0));
+        let cost = |c: &search::Candidate| {
+            c.fit.chi2() / scale + forms[c.form].variant.quantities.len() as f64 * measured.ln()
+        };
+        let mut ranked: Vec<_> = found.iter().map(|c| (cost(c), c)).collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((best_cost, best)) = ranked.first() else {
+            break;
+        };
+        if best.fit.chi2() > (1.0 - GAIN) * here.chi2() {
+            break;
+        }
+        let mut added = trial.clone();
+        added.forms.push(&forms[best.form].variant);
+        let scenario = added.scenario(&best.fit.at).map_err(unfit)?;
+        let with = Scores::of(&scenario, &train, &holdout)?;
+        if with.worse_than(&scores) {
+            break;
+        }
+        alternatives.clear();
+        let mut weights: Vec<(usize, f64)> = Vec::new();
+        for (cost, candidate) in &ranked {
+            let effect = forms[candidate.form].effect;
+            if !weights.iter().any(|(e, _)| *e == effect) {
+                weights.push((effect, (-(cost - best_cost) / 2.0).exp()));
+                let alike = cost - best_cost < ODDS
+                    || candidate.fit.chi2() < (1.0 + ALIKE) * best.fit.chi2();
+                alternatives.push((effect, alike));
+            }
+        }
+        let total: f64 = weights.iter().map(|(_, w)| w).sum();
+        let probability = |effect: usize| {
+            weights
+                .iter()
+                .find(|(e, _)| *e == effect)
+                .map_or(0.0, |(_, w)| w / total)
+        };
+        let chosen = forms[best.form].effect;
+        named.push((best.form, probability(chosen)));
+        used.push(chosen);
+        alternatives.retain(|(effect, alike)| *effect != chosen && *alike);
+        here = best.fit.clone();
+        trial = added;
+        scores = with;
+        // the last round's alternatives are told with their probabilities
+        told(0.1 + 0.85 * (round + 1) as f64 / MOST as f64);
+        if alternatives
+            .iter()
+            .any(|(e, _)| probability(*e) > probability(chosen))
+        {
+            break;
+        }
+    }
+    let augmented = trial.scenario(&here.at).map_err(unfit)?;
+    let beyond = |chi2: f64| (chi2 - measured).max(0.0);
+    let explained = match beyond(baseline.chi2()) {
+        all if all > 0.0 => 1.0 - beyond(here.chi2()) / all,
+        _ => 1.0,
+    };
+    let alternatives: Vec<usize> = alternatives.into_iter().map(|(e, _)| e).collect();
+    let kind = kind(
+        &baseline,
+        measured,
+        &named,
+        explained,
+        &alternatives,
+        &forms,
+        &effects,
+    );
+    let fitted = estimates(&trial, &here, measured);
+    let effects_named = name_all(
+        &named,
+        &forms,
+        &effects,
+        &fitted,
+        own.len(),
+        (&before, &scores),
+    );
+    let discriminates: Vec<&'static str> =
+        (named.last().map(|(f, _)| forms[*f].effect).into_iter())
+            .chain(alternatives.iter().copied())
+            .map(|e| effects[e].id())
+            .collect();
+    let experiment = (kind == Kind::Class || kind == Kind::Several && !alternatives.is_empty())
+        .then(|| Experiment {
+            words: named
+                .last()
+                .map_or("", |(f, _)| effects[forms[*f].effect].experiment())
+                .to_owned(),
+            discriminates: discriminates.clone(),
+        });
+    let shares = 1.0 / (alternatives.len() + 1) as f64;
+    let floor = floor(&train);
+    let diagnosis = Diagnosis {
+        verdict: kind,
+        words: sentence(kind, &effects_named, explained, &floor, &discriminates),
+        effects: effects_named,
+        alternatives: (alternatives.iter())
+            .map(|e| Alternative {
+                id: effects[*e].id(),
+                probability: shares,
+            })
+            .collect(),
+        experiment,
+        location: locate::locate(&baseline.residuals.as_slice()[..measured as usize], &train),
+        floor,
+        baseline: before.fitted(
+            estimates(&empty, &baseline, measured),
+            baseline.chi2() / measured,
+        ),
+        augmented: scores.fitted(fitted[..own.len()].to_vec(), here.chi2() / measured),
+        explained,
+        audit: audit(&train, &holdout),
+        seconds: start.elapsed().as_secs_f64(),
+    };
+    told(1.0);
+    Ok((diagnosis, augmented))
+}
+
+fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseError> {
+    if request.train.len() < 2 || request.holdout.is_empty() {
+        return Err(DiagnoseError::Unfit(format!(
+            "a diagnosis trains on two recordings at least and is judged by one that it hasn't seen; {} and {} are \
+             given: add --train DIR and --holdout DIR",
+            request.train.len(),
+            request.holdout.len()
+        )));
+    }
+    let read = |folders: &[PathBuf]| -> Result<Vec<Samples>, DiagnoseError> {
+        folders
+            .iter()
+            .map(|folder| Ok(Samples::read(folder)?))
+            .collect()
+    };
+    let (train, holdout) = (read(request.train)?, read(request.holdout)?);
+    if let Some(samples) = train.iter().find(|s| s.travel.iter().all(|t| *t < 0.05)) {
+        return Err(DiagnoseError::Unfit(format!(
+            "the motors of recording `{}` never turn, so it shows nothing of the robot; train on one in which they do",
+            samples.name
+        )));
+    }
+    Ok((train, holdout))
+}
+
+fn chosen(ids: &[String]) -> Result<Vec<Box<dyn Effect>>, DiagnoseError> {
+    let mut effects = <dyn Effect>::all();
+    if !ids.is_empty() {
+        let known: Vec<&str> = effects.iter().map(|e| e.id()).collect();
+        if let Some(unknown) = ids.iter().find(|id| !known.contains(&id.as_str())) {
+            return Err(DiagnoseError::Unfit(format!(
+                "there is no effect `{unknown}`; {}",
+                crate::config::remedy(unknown, &known, "effects")
+            )));
+        }
+        effects.retain(|e| ids.iter().any(|id| id == e.id()));
+    }
+    Ok(effects)
+}
+
+/// Fits the scenario's own numbers from their nominal values and from one place in their ranges.
+fn calibrate(trial: &Trial<'_>, nominal: &[f64], seed: u64) -> Result<Linear, String> {
+    let mut random = Pcg64Mcg::seed_from_u64(seed);
+    let mut uniform = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+    let elsewhere: Vec<f64> = (trial.own.iter().zip(nominal))
+        .map(|(p, n)| {
+            let to = p.range.0 + uniform() * p.width();
+            n + 0.3 * (to - n)
+        })
+        .collect();
+    let (first, second) = rayon::join(|| trial.fit(nominal, 12), || trial.fit(&elsewhere, 12));
+    let first = first?;
+    Ok(match second {
+        Ok(second) if second.chi2() < first.chi2() - 1e-6 * first.chi2() => second,
+        _ => first,
+    })
+}
+
+fn count(data: &[Samples]) -> f64 {
+    data.iter().map(|s| s.list.len() * CHANNELS).sum::<usize>() as f64
+}
+
+/// How well a scenario does, recording by recording.
+#[derive(Clone)]
+struct Scores {
+    train: Vec<Score>,
+    holdout: Vec<Score>,
+}
+
+#[derive(Clone)]
+struct Score {
+    name: String,
+    rms: (f64, f64),
+    chi2: f64,
+}
+
+impl Scores {
+    fn of(source: &Source, train: &[Samples], holdout: &[Samples]) -> Result<Self, CompareError> {
+        let score = |samples: &Samples| -> Result<Score, CompareError> {
+            let apart = differences(source, samples)?;
+            let white = whitened(&apart, samples, NUMERICS);
+            Ok(Score {
+                name: samples.name.clone(),
+                rms: platform_rms(&apart, samples),
+                chi2: white.iter().map(|r| r * r).sum(),
+            })
+        };
+        let all = |data: &[Samples]| data.iter().map(score).collect::<Result<Vec<_>, _>>();
+        Ok(Self {
+            train: all(train)?,
+            holdout: all(holdout)?,
+        })
+    }
+
+    /// Whether a recording is done worse than before, or those held out together no better.
+    fn worse_than(&self, before: &Self) -> bool {
+        let pairs = || {
+            self.train
+                .iter()
+                .chain(&self.holdout)
+                .zip(before.train.iter().chain(&before.holdout))
+        };
+        let sum = |scores: &[Score]| scores.iter().map(|s| s.chi2).sum::<f64>();
+        pairs().any(|(now, then)| now.chi2 > (1.0 + WORSE) * then.chi2)
+            || sum(&self.holdout) > sum(&before.holdout)
+    }
+
+    fn fitted(&self, parameters: Vec<Estimated>, reduced_chi2: f64) -> Fitted {
+        let scored = |role: &'static str| {
+            move |s: &Score| Scored {
+                name: s.name.clone(),
+                role,
+                position_rmse_mm: s.rms.0,
+                rotation_rmse_mrad: s.rms.1,
+            }
+        };
+        let recordings = self
+            .train
+            .iter()
+            .map(scored("train"))
+            .chain(self.holdout.iter().map(scored("holdout")));
+        Fitted {
+            parameters,
+            recordings: recordings.collect(),
+            reduced_chi2,
+        }
+    }
+
+    fn train_mm(&self) -> f64 {
+        (self.train.iter().map(|s| s.rms.0.powi(2)).sum::<f64>() / self.train.len() as f64).sqrt()
+    }
+}
+
+fn kind(
+    baseline: &Linear,
+    measured: f64,
+    named: &[(usize, f64)],
+    explained: f64,
+    alternatives: &[usize],
+    forms: &[search::Form],
+    effects: &[Box<dyn Effect>],
+) -> Kind {
+    let is_recording =
+        |form: usize| effects[forms[form].effect].hook() == crate::identify::Hooked::Recording;
+    match named {
+        _ if baseline.chi2() / measured < SOUND => Kind::None,
+        [] => Kind::Unexplained,
+        _ if explained < EXPLAINED => Kind::Unexplained,
+        [_] if !alternatives.is_empty() => Kind::Class,
+        [(form, _)] if is_recording(*form) => Kind::Recording,
+        [_] => Kind::Effect,
+        _ => Kind::Several,
+    }
+}
+
+/// Values with intervals from the curvature of chi2, widened where the fit is worse than the noise.
+fn estimates(trial: &Trial<'_>, fit: &Linear, measured: f64) -> Vec<Estimated> {
+    let scale = (fit.chi2() / measured).max(1.0);
+    let covariance = trial.covariance(fit);
+    let quantities = trial.forms.iter().flat_map(|form| &form.quantities);
+    let names = (trial.own.iter().map(|p| (p.name.clone(), p.unit.clone())))
+        .chain(quantities.map(|q| (q.name.clone(), q.unit.to_owned())));
+    let estimate = |(j, (name, unit)): (usize, (String, String))| {
+        let reach = 1.96 * (covariance[(j, j)] * scale).sqrt();
+        let (least, most) = trial.range(j);
+        let value = fit.at[j];
+        let ci95 = [(value - reach).max(least), (value + reach).min(most)];
+        Estimated {
+            name,
+            value,
+            unit,
+            ci95,
+        }
+    };
+    names.enumerate().map(estimate).collect()
+}
+
+fn name_all(
+    named: &[(usize, f64)],
+    forms: &[search::Form],
+    effects: &[Box<dyn Effect>],
+    estimates: &[Estimated],
+    own: usize,
+    (before, after): (&Scores, &Scores),
+) -> Vec<Named> {
+    let mut at = own;
+    let gain = before.train_mm() - after.train_mm();
+    let name = |(form, probability): &(usize, f64)| {
+        let (effect, variant) = (&effects[forms[*form].effect], &forms[*form].variant);
+        let parameters = estimates[at..at + variant.quantities.len()].to_vec();
+        at += variant.quantities.len();
+        let words = match variant.name.as_str() {
+            "" => effect.words().to_owned(),
+            which => format!("{} ({which})", effect.words()),
+        };
+        Named {
+            id: effect.id(),
+            words,
+            equation: effect.equation(),
+            hook: effect.hook(),
+            parameters,
+            probability: *probability,
+            gain_mm: gain,
+        }
+    };
+    named.iter().map(name).collect()
+}
+
+fn floor(data: &[Samples]) -> Floor {
+    let settled = || {
+        data.iter()
+            .flat_map(|s| &s.list)
+            .filter(|s| s.phase != Phase::Moving)
+    };
+    let mean = |squares: f64| (3.0 * squares / settled().count() as f64).sqrt() * 1e3;
+    let position = |s: &samples::Sample| s.position_deviation[0].powi(2) + NUMERICS.0.powi(2);
+    let rotation = |s: &samples::Sample| s.rotation_deviation[0].powi(2) + NUMERICS.1.powi(2);
+    Floor {
+        position_mm: mean(settled().map(position).sum()),
+        rotation_mrad: mean(settled().map(rotation).sum()),
+    }
+}
+
+fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
+    let line = |s: &Samples| {
+        let count = |phase: Phase| s.list.iter().filter(|sample| sample.phase == phase).count();
+        format!(
+            "{}: {} set-points, {} samples on the way, noise {:.3} mm and {:.2} mrad a component",
+            s.name,
+            count(Phase::Settled),
+            count(Phase::Moving),
+            1e3 * s.noise.0,
+            1e3 * s.noise.1
+        )
+    };
+    train.iter().chain(holdout).map(line).collect()
+}
+
+fn sentence(kind: Kind, named: &[Named], explained: f64, floor: &Floor, class: &[&str]) -> String {
+    let words: Vec<&str> = named.iter().map(|n| n.words.as_str()).collect();
+    let share = 100.0 * explained;
+    let all = words.join("; ");
+    match kind {
+        Kind::None => format!(
+            "Nothing is missing above the floor of {:.2} mm and {:.1} mrad: the calibrated scenario explains the recordings.",
+            floor.position_mm, floor.rotation_mrad
+        ),
+        Kind::Recording => format!(
+            "The recording, not the robot: {all}. That explains {share:.0} % of the mismatch."
+        ),
+        Kind::Effect => {
+            format!("What was left out: {all}. That explains {share:.0} % of the mismatch.")
+        }
+        Kind::Class => format!(
+            "These recordings can't tell {} apart; the best of them ({all}) explains {share:.0} % of the mismatch.",
+            class.join(" and ")
+        ),
+        Kind::Several => format!(
+            "Several things were left out: {all}. Together they explain {share:.0} % of the mismatch."
+        ),
+        Kind::Unexplained if named.is_empty() => {
+            "There is a mismatch, and none of the known effects explains it.".into()
+        }
+        Kind::Unexplained => format!(
+            "There is a mismatch that is not explained: the best that is known ({all}) accounts for {share:.0} % of it only."
+        ),
+        Kind::Insufficient => "Too little data.".into(),
+    }
+}

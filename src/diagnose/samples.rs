@@ -1,0 +1,240 @@
+//! What a recording is reduced to: the settled end and the beginning of every dwell, and rows on the way.
+
+use crate::compare::{CompareError, motor_inputs};
+use crate::engine::Inputs;
+use crate::recordings::{BasePoses, MotorAngles, Pose, Recording, Reference, RobotGeometry};
+use nalgebra::Vector3;
+use std::path::Path;
+
+/// Ticks per second below which a motor rests.
+const STILL: f64 = 30.0;
+/// Rows that are averaged at most.
+const BLOCK: usize = 5;
+/// Every so many rows on the way, one is taken.
+const STRIDE: usize = 4;
+/// Error of the time that a moving row is taken at [s].
+const CLOCK: f64 = 0.01;
+/// Share of the robot's speed that quasi-static states of moving rows may be wrong by, as a time [s].
+const INERTIA: f64 = 0.01;
+
+/// When a sample was taken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// Motors turn.
+    Moving,
+    /// Just after they have stopped.
+    Stopped,
+    /// At the end of the dwell.
+    Settled,
+}
+
+/// Mean poses over a few rows.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// Time of the last of these rows [s].
+    pub time: f64,
+    /// Motor angles [rad].
+    pub angles: [f64; 4],
+    /// Poses of platform and ring in the base frame.
+    pub poses: [Pose; 2],
+    /// When it was taken.
+    pub phase: Phase,
+    /// Standard deviation of a position component [m] of each body.
+    pub position_deviation: [f64; 2],
+    /// Standard deviation of a rotation component [rad] of each body.
+    pub rotation_deviation: [f64; 2],
+}
+
+/// A recording, reduced.
+#[derive(Clone, Debug)]
+pub struct Samples {
+    /// Name of the recording.
+    pub name: String,
+    /// Samples in order of time.
+    pub list: Vec<Sample>,
+    /// Motor angles of all rows.
+    pub inputs: Inputs,
+    /// Rest poses of the markers.
+    pub reference: Reference,
+    /// Motor angles at rest are zero from here [s].
+    pub rest: f64,
+    /// Deviation of a single row at rest: position [m], rotation [rad].
+    pub noise: (f64, f64),
+    /// Range of each motor's angle [rad].
+    pub travel: [f64; 4],
+}
+
+impl Samples {
+    /// Reads and reduces the recording in `folder`.
+    ///
+    /// # Errors
+    /// If it can't be read or shows no dwell.
+    pub fn read(folder: &Path) -> Result<Self, CompareError> {
+        Self::of(&Recording::read(folder)?)
+    }
+
+    /// Reduces a recording.
+    ///
+    /// # Errors
+    /// If it has no motion capture or shows no dwell.
+    pub fn of(recording: &Recording) -> Result<Self, CompareError> {
+        let geometry = RobotGeometry::default();
+        let poses = BasePoses::new(recording, &geometry)?;
+        let reference = Reference::new(recording, &poses)?;
+        let motors = MotorAngles::new(recording);
+        let first = motors.first_row;
+        let rows = motors.time.len();
+        let tracks = [&poses.platform[first..], &poses.ring[first..]];
+        let rate = |row: usize| {
+            let other = if row == 0 { 1 } else { row - 1 };
+            let dt = (motors.time[row] - motors.time[other]).abs().max(1e-6);
+            let turned = |i: usize| (motors.present[row][i] - motors.present[other][i]).abs();
+            (0..4).map(turned).fold(0.0, f64::max) / dt
+        };
+        let limit = STILL * crate::recordings::RADIANS_PER_TICK;
+        if rows < 20 {
+            return Err(CompareError::Unfit(format!(
+                "recording `{}` has {rows} rows with motor readings; a diagnosis needs at least 20",
+                recording.name
+            )));
+        }
+        let still: Vec<bool> = (0..rows).map(|row| rate(row) < limit).collect();
+        let noise = noise(&still, tracks);
+        let mut list = Vec::new();
+        let mut series = motors.present.clone();
+        let mut row = 0;
+        while row < rows {
+            let end = (row..rows)
+                .find(|r| still[*r] != still[row])
+                .unwrap_or(rows);
+            if still[row] {
+                // the robot comes to rest a little after its motors
+                let from = if row == 0 { 0 } else { row + 3 };
+                let length = end.saturating_sub(from);
+                if length >= 2 {
+                    let block = BLOCK.min(length);
+                    if length >= 3 * BLOCK {
+                        list.push(mean(
+                            &motors,
+                            tracks,
+                            from..from + block,
+                            Phase::Stopped,
+                            noise,
+                        ));
+                    }
+                    let settled = mean(&motors, tracks, end - block..end, Phase::Settled, noise);
+                    series[end - block..end].fill(settled.angles);
+                    list.push(settled);
+                }
+            } else {
+                for r in (row..end).step_by(STRIDE).skip(1) {
+                    if r + 1 < rows && r > 0 {
+                        let mut sample = mean(&motors, tracks, r..r + 1, Phase::Moving, noise);
+                        for b in 0..2 {
+                            let dt = motors.time[r + 1] - motors.time[r - 1];
+                            let (before, after) = (&tracks[b][r - 1], &tracks[b][r + 1]);
+                            let apart = after.translation.vector - before.translation.vector;
+                            let turn = after.rotation.angle_to(&before.rotation);
+                            let time = CLOCK.hypot(INERTIA);
+                            let more = [apart.norm() / dt * time, turn / dt * time];
+                            sample.position_deviation[b] =
+                                sample.position_deviation[b].hypot(more[0]);
+                            sample.rotation_deviation[b] =
+                                sample.rotation_deviation[b].hypot(more[1]);
+                        }
+                        list.push(sample);
+                    }
+                }
+            }
+            row = end;
+        }
+        if list.iter().filter(|s| s.phase == Phase::Settled).count() < 3 {
+            return Err(CompareError::Unfit(format!(
+                "recording `{}` comes to rest fewer than three times; a diagnosis needs set-points that are held",
+                recording.name
+            )));
+        }
+        let inputs = motor_inputs(&motors.time, &series).map_err(CompareError::Unfit)?;
+        let travel = std::array::from_fn(|i| {
+            let angles = motors.present.iter().map(|a| a[i]);
+            angles.clone().fold(f64::MIN, f64::max) - angles.fold(f64::MAX, f64::min)
+        });
+        Ok(Self {
+            name: recording.name.clone(),
+            list,
+            inputs,
+            reference,
+            rest: motors.time[0],
+            noise,
+            travel,
+        })
+    }
+}
+
+fn mean(
+    motors: &MotorAngles,
+    tracks: [&[Pose]; 2],
+    rows: std::ops::Range<usize>,
+    phase: Phase,
+    noise: (f64, f64),
+) -> Sample {
+    let count = rows.len() as f64;
+    let angles = std::array::from_fn(|i| {
+        motors.present[rows.clone()]
+            .iter()
+            .map(|a| a[i])
+            .sum::<f64>()
+            / count
+    });
+    let poses = tracks.map(|track| {
+        let poses = &track[rows.clone()];
+        let position = poses
+            .iter()
+            .map(|p| p.translation.vector)
+            .sum::<Vector3<f64>>()
+            / count;
+        let first = poses[0].rotation;
+        let turns = poses
+            .iter()
+            .map(|p| (p.rotation * first.inverse()).scaled_axis());
+        let turn = turns.sum::<Vector3<f64>>() / count;
+        Pose::from_parts(
+            position.into(),
+            nalgebra::UnitQuaternion::from_scaled_axis(turn) * first,
+        )
+    });
+    Sample {
+        time: motors.time[rows.end - 1],
+        angles,
+        poses,
+        phase,
+        position_deviation: [noise.0 / count.sqrt(); 2],
+        rotation_deviation: [noise.1 / count.sqrt(); 2],
+    }
+}
+
+/// Deviations of a component from row to row where the motors rest, over the root of two.
+fn noise(still: &[bool], tracks: [&[Pose]; 2]) -> (f64, f64) {
+    let (mut shifts, mut turns) = (Vec::new(), Vec::new());
+    for row in 4..still.len() {
+        if still[row - 4..=row].iter().all(|s| *s) {
+            for track in tracks {
+                let (a, b) = (&track[row - 1], &track[row]);
+                shifts.extend(
+                    (b.translation.vector - a.translation.vector)
+                        .iter()
+                        .map(|x| x.abs()),
+                );
+                let turn = (b.rotation * a.rotation.inverse()).scaled_axis();
+                turns.extend(turn.iter().map(|x| x.abs()));
+            }
+        }
+    }
+    // the median of a normal variable's size is 0.6745 deviations
+    let deviation = |mut sizes: Vec<f64>, least: f64| {
+        sizes.sort_by(f64::total_cmp);
+        let middle = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+        (middle / 0.6745 / 2.0_f64.sqrt()).max(least)
+    };
+    (deviation(shifts, 5e-6), deviation(turns, 5e-5))
+}

@@ -1,0 +1,169 @@
+//! What a diagnosis says. Its JSON keys are stable.
+
+use crate::identify::Hooked;
+use serde::Serialize;
+
+/// The kinds of verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Nothing above the floor.
+    None,
+    /// A fault of the recording.
+    Recording,
+    /// One effect.
+    Effect,
+    /// One of several that these data can't tell apart.
+    Class,
+    /// Several effects.
+    Several,
+    /// None of the effects that are known.
+    Unexplained,
+    /// Too little data.
+    Insufficient,
+}
+
+/// A diagnosis.
+#[derive(Clone, Debug, Serialize)]
+pub struct Diagnosis {
+    /// The verdict.
+    pub verdict: Kind,
+    /// The verdict in words.
+    pub words: String,
+    /// Effects that are named, the strongest first.
+    pub effects: Vec<Named>,
+    /// Others that explain nearly as much.
+    pub alternatives: Vec<Alternative>,
+    /// What would tell them apart.
+    pub experiment: Option<Experiment>,
+    /// Where simulation and recordings differ.
+    pub location: Location,
+    /// What can't be told from noise.
+    pub floor: Floor,
+    /// The calibrated scenario without effects.
+    pub baseline: Fitted,
+    /// The scenario with the named effects.
+    pub augmented: Fitted,
+    /// Share of the mismatch, beyond noise, that the named effects explain.
+    pub explained: f64,
+    /// What is odd about the recordings.
+    pub audit: Vec<String>,
+    /// Time it took [s].
+    pub seconds: f64,
+}
+
+/// An effect that is named.
+#[derive(Clone, Debug, Serialize)]
+pub struct Named {
+    /// Its identifier.
+    pub id: &'static str,
+    /// What it is.
+    pub words: String,
+    /// Its equation.
+    pub equation: &'static str,
+    /// Which part of the model it belongs to.
+    pub hook: Hooked,
+    /// Its numbers.
+    pub parameters: Vec<Estimated>,
+    /// Probability among the effects that were tried.
+    pub probability: f64,
+    /// Root mean square that the platform's position error falls by when it is added, on the training data [mm].
+    pub gain_mm: f64,
+}
+
+/// A number and its interval.
+#[derive(Clone, Debug, Serialize)]
+pub struct Estimated {
+    /// What it is.
+    pub name: String,
+    /// Value that fits best.
+    pub value: f64,
+    /// Unit.
+    pub unit: String,
+    /// Interval with 95 % confidence, given that the model is right.
+    pub ci95: [f64; 2],
+}
+
+/// Another effect that explains nearly as much.
+#[derive(Clone, Debug, Serialize)]
+pub struct Alternative {
+    /// Its identifier.
+    pub id: &'static str,
+    /// Probability among the effects that were tried.
+    pub probability: f64,
+}
+
+/// What to do next.
+#[derive(Clone, Debug, Serialize)]
+pub struct Experiment {
+    /// What to do.
+    pub words: String,
+    /// The effects that it tells apart.
+    pub discriminates: Vec<&'static str>,
+}
+
+/// Where simulation and recordings differ.
+#[derive(Clone, Debug, Serialize)]
+pub struct Location {
+    /// Shares of the calibrated baseline's mismatch.
+    pub channels: Vec<ChannelShare>,
+    /// Recording, and from and to which time [s] it differs most.
+    pub time: Vec<Interval>,
+    /// In which states of the robot, in words.
+    pub state: String,
+    /// Where along the robot: places of the recorded bodies over its length, with their shares.
+    pub arclength: Vec<(f64, f64)>,
+}
+
+/// Share of a channel.
+#[derive(Clone, Debug, Serialize)]
+pub struct ChannelShare {
+    /// `platform` or `ring`.
+    pub body: &'static str,
+    /// `x`, `y`, `z`, `turn x`, ..
+    pub channel: &'static str,
+    /// Share of the squared, whitened mismatch.
+    pub share: f64,
+}
+
+/// A stretch of time.
+#[derive(Clone, Debug, Serialize)]
+pub struct Interval {
+    /// The recording.
+    pub recording: String,
+    /// Begin and end [s].
+    pub seconds: [f64; 2],
+}
+
+/// What can't be told from noise.
+#[derive(Clone, Debug, Serialize)]
+pub struct Floor {
+    /// Of a position [mm].
+    pub position_mm: f64,
+    /// Of a rotation [mrad].
+    pub rotation_mrad: f64,
+}
+
+/// A fitted scenario.
+#[derive(Clone, Debug, Serialize)]
+pub struct Fitted {
+    /// Its own numbers.
+    pub parameters: Vec<Estimated>,
+    /// How well it does.
+    pub recordings: Vec<Scored>,
+    /// Sum of the squares of whitened residuals over their number, on the training data.
+    pub reduced_chi2: f64,
+}
+
+/// How well a scenario does on a recording.
+#[derive(Clone, Debug, Serialize)]
+pub struct Scored {
+    /// The recording.
+    pub name: String,
+    /// `train` or `holdout`.
+    pub role: &'static str,
+    /// Root mean square of the platform's distance where it rests [mm].
+    pub position_rmse_mm: f64,
+    /// Root mean square of the platform's rotation where it rests [mrad].
+    pub rotation_rmse_mrad: f64,
+}

@@ -1,0 +1,128 @@
+//! Diagnoses of recordings with a concealed effect, made by a simulator that shares no code with this one: nothing is
+//! named where nothing is concealed, what is concealed is named, and misuse is told. What the cases conceal is written
+//! here as their public description has it; no code that diagnoses reads it.
+
+mod common;
+
+use auxetica::config::Source;
+use auxetica::diagnose::verdict::{Diagnosis, Kind};
+use auxetica::diagnose::{Request, diagnose};
+use std::path::{Path, PathBuf};
+
+fn scenario(sets: &[String]) -> Source {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_concealed.ron");
+    Source::load(&file, sets).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn folders(case: &Path, names: &[&str]) -> Vec<PathBuf> {
+    names.iter().map(|name| case.join(name)).collect()
+}
+
+/// The diagnosis of an open case, with these effects only.
+fn diagnosis(case: &str, effects: &[&str]) -> Option<(Diagnosis, Source)> {
+    let case = common::data("concealed")?.join(case);
+    let effects: Vec<String> = effects.iter().map(|e| (*e).to_owned()).collect();
+    let request = Request {
+        source: &scenario(&[]),
+        train: &folders(&case, &["train_0_circle", "train_1_mix"]),
+        holdout: &folders(&case, &["holdout_2_lemniscate", "holdout_3_mix"]),
+        effects: &effects,
+        seed: 1,
+    };
+    Some(diagnose(&request, &|_| ()).unwrap_or_else(|e| panic!("{e}")))
+}
+
+fn held_out(d: &Diagnosis) -> f64 {
+    let held = d
+        .augmented
+        .recordings
+        .iter()
+        .filter(|r| r.role == "holdout");
+    held.map(|r| r.position_rmse_mm).fold(0.0, f64::max)
+}
+
+#[test]
+fn nothing_is_named_where_only_parameters_differ() {
+    let Some((d, _)) = diagnosis("open_a", &[]) else {
+        return;
+    };
+    assert_eq!(d.verdict, Kind::None, "{}", d.words);
+    assert!(d.effects.is_empty());
+    assert!(held_out(&d) < 0.1, "{} mm", held_out(&d));
+}
+
+#[test]
+fn a_rod_that_extends_less_is_found_and_the_scenario_with_it_runs_to_the_same_figures() {
+    let some = [
+        "rod_asymmetry",
+        "encoder_scale",
+        "payload",
+        "intrinsic_curvature",
+    ];
+    let Some((d, augmented)) = diagnosis("open_e", &some) else {
+        return;
+    };
+    assert_eq!(d.verdict, Kind::Effect, "{}", d.words);
+    assert_eq!(d.effects[0].id, "rod_asymmetry");
+    let gain = d.effects[0].parameters[0].value;
+    assert!((gain - 0.88).abs() < 0.01, "gain {gain}");
+    assert!(
+        held_out(&d) < 1.3 * d.floor.position_mm,
+        "{} mm",
+        held_out(&d)
+    );
+    // the text stands alone
+    let again = Source::from_text("again", augmented.text(), &[]).unwrap_or_else(|e| panic!("{e}"));
+    let case = common::data("concealed/open_e/holdout_3_mix").expect("it was there");
+    let samples = auxetica::diagnose::samples::Samples::read(&case).expect("a recording");
+    let apart = auxetica::diagnose::forward::differences(&again, &samples).expect("states");
+    let rms = auxetica::diagnose::forward::platform_rms(&apart, &samples).0;
+    let told = d
+        .augmented
+        .recordings
+        .iter()
+        .find(|r| r.name == "holdout_3_mix")
+        .expect("told");
+    assert!(
+        (rms - told.position_rmse_mm).abs() < 1e-9,
+        "{rms} against {}",
+        told.position_rmse_mm
+    );
+}
+
+#[test]
+fn what_no_effect_on_offer_explains_is_said_to_be_unexplained() {
+    let Some((d, _)) = diagnosis("open_e", &["stiffness_gradient", "permanent_set"]) else {
+        return;
+    };
+    assert_eq!(d.verdict, Kind::Unexplained, "{}", d.words);
+}
+
+#[test]
+fn misuse_is_told_with_a_remedy() {
+    let Some(case) = common::data("concealed/open_a") else {
+        return;
+    };
+    let train = folders(&case, &["train_0_circle", "train_1_mix"]);
+    let holdout = folders(&case, &["holdout_3_mix"]);
+    let refused = |source: &Source, train: &[PathBuf], holdout: &[PathBuf], effects: &[String]| {
+        let request = Request {
+            source,
+            train,
+            holdout,
+            effects,
+            seed: 1,
+        };
+        diagnose(&request, &|_| ())
+            .err()
+            .expect("refused")
+            .to_string()
+    };
+    let source = scenario(&[]);
+    assert!(refused(&source, &train[..1], &holdout, &[]).contains("--train DIR"));
+    assert!(refused(&source, &train, &[], &[]).contains("--holdout DIR"));
+    assert!(refused(&source, &train, &[case.join("nowhere")], &[]).contains("nowhere"));
+    assert!(refused(&source, &train, &holdout, &["gravitas".into()]).contains("gravity"));
+    let bare = scenario(&["uncertain=[]".into()]);
+    assert!(refused(&bare, &train, &holdout, &[]).contains("uncertain"));
+}
