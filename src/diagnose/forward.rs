@@ -11,22 +11,10 @@ use nalgebra::{DMatrix, Rotation3, UnitQuaternion, Vector3};
 
 /// Components of a sample: position and rotation of platform and ring.
 pub const CHANNELS: usize = 12;
-/// Names of the components.
-pub const NAMES: [&str; CHANNELS] = [
-    "platform x",
-    "platform y",
-    "platform z",
-    "platform turn x",
-    "platform turn y",
-    "platform turn z",
-    "ring x",
-    "ring y",
-    "ring z",
-    "ring turn x",
-    "ring turn y",
-    "ring turn z",
-];
-
+/// Newton iterations a sample may take on average; a model that takes more is no candidate, since its search never ends.
+const ITERATIONS: usize = 40;
+/// Smallest share of the way from one sample to the next that is solved at once, for the same reason.
+const SMALLEST: f64 = 1.0 / 32.0;
 /// A scenario's model under the motor angles of a recording, and its markers.
 pub struct Shown {
     model: Model,
@@ -65,6 +53,8 @@ impl Shown {
 pub struct Run {
     shown: Shown,
     solver: SteadySolver,
+    /// Newton iterations that are left.
+    left: usize,
 }
 
 /// States of all samples, from which others are found faster.
@@ -78,12 +68,17 @@ impl Run {
     pub fn new(source: &Source, samples: &Samples) -> Result<Self, CompareError> {
         let mut shown = Shown::new(source, samples)?;
         let system = &mut shown.model.system;
-        let options = shown.model.solver.steady_options();
+        let mut options = shown.model.solver.steady_options();
+        options.smallest_increment = options.smallest_increment.max(SMALLEST);
         let mut solver = SteadySolver::new(system, options).map_err(RunError::from)?;
         solver
             .advance(system, samples.rest)
             .map_err(RunError::from)?;
-        Ok(Self { shown, solver })
+        Ok(Self {
+            shown,
+            solver,
+            left: ITERATIONS * samples.list.len(),
+        })
     }
 
     /// Goes to sample `i`, by way of the guide's state if there is one.
@@ -98,12 +93,21 @@ impl Run {
         if let Some(guide) = guide {
             let before = system.save();
             system.pose_as(&guide[i]);
-            if self.solver.advance(system, time).is_ok() {
-                return Ok(());
+            if let Ok(report) = self.solver.advance(system, time) {
+                return self.spend(report.iterations, time);
             }
             system.restore(&before);
         }
-        self.solver.advance(system, time).map_err(RunError::from)?;
+        let report = self.solver.advance(system, time).map_err(RunError::from)?;
+        self.spend(report.iterations, time)
+    }
+
+    fn spend(&mut self, iterations: usize, time: f64) -> Result<(), CompareError> {
+        self.left = self.left.checked_sub(iterations).ok_or_else(|| {
+            CompareError::Unfit(format!(
+                "up to t = {time:.2} s its steady states took more than {ITERATIONS} Newton iterations each"
+            ))
+        })?;
         Ok(())
     }
 
