@@ -10,6 +10,7 @@
 //! }
 //! ```
 
+pub mod challenge;
 pub mod characterise;
 pub mod cli;
 pub mod compare;

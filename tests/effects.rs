@@ -68,8 +68,10 @@ fn an_effect_is_absent_at_its_null_and_present_at_its_typical_value() {
                 "{what} moves the robot by {absent} m at its null"
             );
             let present = farthest(&typical, &without);
-            // what pushes or stops the platform acts in some poses only
-            let local = ["obstacle", "tether"].contains(&effect.id());
+            // what pushes or stops the platform acts in some poses only, and an unloaded robot whose rods all soften alike
+            // keeps its shape
+            let local = ["obstacle", "tether"].contains(&effect.id())
+                || what == "thermal_drift of stiffness";
             assert!(
                 local || present > 1e-5,
                 "{what} moves the robot by {present} m only"

@@ -154,3 +154,16 @@ impl Failure {
         })
     }
 }
+
+impl From<crate::challenge::ChallengeError> for Failure {
+    fn from(e: crate::challenge::ChallengeError) -> Self {
+        use crate::challenge::ChallengeError;
+        match e {
+            ChallengeError::Scenario(problems) => Self::Scenario(problems),
+            ChallengeError::File { path, source } => {
+                Self::output(std::path::Path::new(&path), source)
+            }
+            other => CompareError::Unfit(other.to_string()).into(),
+        }
+    }
+}

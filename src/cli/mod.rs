@@ -1,5 +1,6 @@
 //! The command line. Results go to stdout, everything else to stderr.
 
+mod challenge;
 mod characterise;
 mod check;
 mod compare;
@@ -52,6 +53,10 @@ enum Command {
     Merge(sweep::MergeOptions),
     /// Say which physics a scenario lacks, from recordings of the real robot, and write the scenario that has it.
     Diagnose(diagnose::Options),
+    /// Make recordings with hidden effects, to test a diagnosis.
+    Conceal(challenge::ConcealOptions),
+    /// Diagnose such recordings blindly, then count what was found.
+    Score(challenge::ScoreOptions),
     /// Compute figures and tables of the paper again, beside what it prints.
     Reproduce(reproduce::Options),
 }
@@ -91,6 +96,8 @@ pub fn main_with(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> Exi
         Some(Command::Sweep(options)) => sweep::run(options, quiet),
         Some(Command::Merge(options)) => sweep::merge(options),
         Some(Command::Diagnose(options)) => diagnose::run(options, quiet),
+        Some(Command::Conceal(options)) => challenge::conceal(options, quiet),
+        Some(Command::Score(options)) => challenge::score(options, quiet),
         Some(Command::Reproduce(options)) => reproduce::run(options, quiet),
     };
     match done {

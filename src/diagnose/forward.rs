@@ -5,7 +5,7 @@ use crate::compare::CompareError;
 use crate::config::Source;
 use crate::engine::scenario::{Capture, Datum, Marker};
 use crate::engine::system::Saved;
-use crate::engine::{Model, RunError, Sensitivities, SteadySolver};
+use crate::engine::{Inputs, Model, RunError, Sensitivities, SteadySolver};
 use crate::recordings::Pose;
 use nalgebra::{DMatrix, Rotation3, UnitQuaternion, Vector3};
 
@@ -215,6 +215,32 @@ fn difference(
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
     Ok(Run::new(source, samples)?.all(samples, None)?.0)
+}
+
+/// Poses of both markers as motion capture sees them, in steady states one after the other.
+///
+/// # Errors
+/// If the scenario can't be built, or has no steady state at one of the times.
+pub fn film(
+    source: &Source,
+    inputs: Inputs,
+    times: &[f64],
+) -> Result<Vec<[Pose; 2]>, CompareError> {
+    let mut model = Model::build(source, Some(inputs))?;
+    let markers = crate::compare::markers(&model)?;
+    let mut options = model.solver.steady_options();
+    options.smallest_increment = options.smallest_increment.max(SMALLEST);
+    let system = &mut model.system;
+    system.set_time(times.first().copied().unwrap_or(0.0));
+    let mut solver = SteadySolver::new(system, options).map_err(RunError::from)?;
+    let mut poses = Vec::with_capacity(times.len());
+    for time in times {
+        solver
+            .advance(&mut model.system, *time)
+            .map_err(RunError::from)?;
+        poses.push([0, 1].map(|b| seen(&model, &markers[b])));
+    }
+    Ok(poses)
 }
 
 /// The pose of a marker as motion capture sees it.

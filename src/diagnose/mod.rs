@@ -249,6 +249,44 @@ pub fn diagnose(
     Ok((diagnosis, augmented))
 }
 
+/// Held-out position error \[mm\] of the scenario with given effects (identifier, form, values to begin with), fitted to
+/// the training recordings: what a diagnosis that knows the truth would reach.
+///
+/// # Errors
+/// As [`diagnose`], or if there is no such effect.
+pub fn oracle(
+    request: &Request<'_>,
+    known: &[(String, String, Vec<f64>)],
+) -> Result<f64, DiagnoseError> {
+    let own = Parameter::declared(request.source)?;
+    let (train, holdout) = read(request)?;
+    let robot = Robot::of(request.source)?;
+    let effects = <dyn Effect>::all();
+    let forms = search::forms(&effects, &robot);
+    let mut start: Vec<f64> = own.iter().map(|p| p.nominal).collect();
+    let mut trial = Trial {
+        source: request.source,
+        own: &own,
+        forms: Vec::new(),
+        data: &train,
+        floor: NUMERICS,
+        guides: &[],
+    };
+    for (id, name, values) in known {
+        let same = |f: &&search::Form| effects[f.effect].id() == id && f.variant.name == *name;
+        let form = forms.iter().find(same).ok_or_else(|| {
+            DiagnoseError::Unfit(format!("there is no effect `{id}` of the form `{name}`"))
+        })?;
+        trial.forms.push(&form.variant);
+        start.extend(values);
+    }
+    let fit = trial.fit(&start, 12).map_err(DiagnoseError::Unfit)?;
+    let scenario = trial.scenario(&fit.at).map_err(DiagnoseError::Unfit)?;
+    let scores = Scores::of(&scenario, &train, &holdout)?;
+    let squares = scores.holdout.iter().map(|s| s.rms.0.powi(2));
+    Ok((squares.sum::<f64>() / holdout.len() as f64).sqrt())
+}
+
 fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseError> {
     if request.train.len() < 2 || request.holdout.is_empty() {
         return Err(DiagnoseError::Unfit(format!(

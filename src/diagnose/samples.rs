@@ -130,9 +130,9 @@ impl Samples {
                 for r in (row..end).step_by(STRIDE).skip(1) {
                     if r + 1 < rows && r > 0 {
                         let mut sample = mean(&motors, tracks, r..r + 1, Phase::Moving, noise);
-                        for b in 0..2 {
+                        for (b, track) in tracks.iter().enumerate() {
                             let dt = motors.time[r + 1] - motors.time[r - 1];
-                            let (before, after) = (&tracks[b][r - 1], &tracks[b][r + 1]);
+                            let (before, after) = (&track[r - 1], &track[r + 1]);
                             let apart = after.translation.vector - before.translation.vector;
                             let turn = after.rotation.angle_to(&before.rotation);
                             let time = CLOCK.hypot(INERTIA);

@@ -16,13 +16,12 @@ pub struct Form {
 /// All forms of the effects that can act on a robot.
 #[must_use]
 pub fn forms(effects: &[Box<dyn Effect>], robot: &Robot) -> Vec<Form> {
-    let of = |(effect, e): (usize, &Box<dyn Effect>)| {
+    let each = effects.iter().enumerate();
+    each.flat_map(|(effect, e)| {
         let variants = e.variants(robot).into_iter();
-        variants
-            .map(move |variant| Form { effect, variant })
-            .collect::<Vec<_>>()
-    };
-    effects.iter().enumerate().flat_map(of).collect()
+        variants.map(move |variant| Form { effect, variant })
+    })
+    .collect()
 }
 
 /// A form that was fitted.

@@ -41,7 +41,7 @@ impl Linear {
     }
 }
 
-/// Forgetting of the steps' damping.
+/// Least damping of the steps.
 const DAMPING: f64 = 1e-6;
 
 impl<'a> Trial<'a> {
@@ -148,8 +148,8 @@ impl<'a> Trial<'a> {
             for (j, step) in columns.clone().zip(&steps) {
                 // at the end of its range a value goes one way only
                 let (least, most) = self.range(j);
-                let up = (at[j] + step <= most).then_some(*step).unwrap_or(0.0);
-                let down = (at[j] - step >= least).then_some(*step).unwrap_or(0.0);
+                let up = if at[j] + step <= most { *step } else { 0.0 };
+                let down = if at[j] - step >= least { *step } else { 0.0 };
                 let shown =
                     |step: f64| Shown::new(&moved(j, step)?, samples).map_err(|e| e.to_string());
                 let runs = [shown(up)?, shown(-down)?];

@@ -1,0 +1,282 @@
+//! Diagnoses every case, then opens the truth and counts.
+
+use super::truth::{Concealed, Truth};
+use super::{ChallengeError, NOMINAL, RECORDINGS, SEAL, TRUTH, hash};
+use crate::config::Source;
+use crate::diagnose::{Request, diagnose, oracle};
+use serde::Deserialize;
+use std::path::{Path, PathBuf};
+
+/// File of a case's diagnosis, kept so that an interrupted score goes on.
+const DIAGNOSIS: &str = "diagnosis.json";
+/// Share of the floor above which a mismatch is visible.
+pub const VISIBLE: f64 = 0.7;
+
+/// What was said of a case, beside what it concealed.
+pub struct Result {
+    /// The truth.
+    pub truth: Truth,
+    /// The verdict.
+    pub verdict: String,
+    /// Effects that were named, then alternatives.
+    pub said: Vec<String>,
+    /// Mismatch of the calibrated baseline in floors: the root of its mean squared residual less one.
+    pub visible: f64,
+    /// Whether the verdict is right; a class is right if it contains the effect.
+    pub right: bool,
+    /// Whether the first effect acts where the true one does.
+    pub right_hook: bool,
+    /// Errors of the true effect's values over their sizes, and whether each interval holds the truth.
+    pub values: Vec<(f64, bool)>,
+    /// Held-out position error of the improved model over that of the true effect's model.
+    pub over_oracle: Option<f64>,
+    /// Time it took \[s\].
+    pub seconds: f64,
+}
+
+/// Counts over a challenge.
+#[derive(Default)]
+pub struct Tally {
+    /// Controls, and those in which something was named.
+    pub controls: (usize, usize),
+    /// Single effects that are visible; of these those named rightly, alone or in a class.
+    pub singles: (usize, usize),
+    /// Of these, those that were named first; those among the first three; those with the right hook.
+    pub first: usize,
+    /// Those among the first three.
+    pub third: usize,
+    /// Those with the right hook.
+    pub hooks: usize,
+    /// Visible doubles, and those of which both effects were named.
+    pub doubles: (usize, usize),
+    /// Visible effects that are in no library, and those that were given to another without a warning.
+    pub foreigners: (usize, usize),
+    /// Median error of values, over their sizes.
+    pub value_error: f64,
+    /// Share of intervals that hold the truth.
+    pub coverage: f64,
+    /// Median of held-out errors over the oracle's.
+    pub over_oracle: f64,
+}
+
+#[derive(Deserialize)]
+struct Said {
+    verdict: String,
+    effects: Vec<SaidEffect>,
+    alternatives: Vec<Id>,
+    floor: SaidFloor,
+    baseline: SaidFit,
+    augmented: SaidFit,
+    seconds: f64,
+}
+#[derive(Deserialize)]
+struct SaidEffect {
+    id: String,
+    hook: String,
+    parameters: Vec<SaidValue>,
+}
+#[derive(Deserialize)]
+struct Id {
+    id: String,
+}
+#[derive(Deserialize)]
+struct SaidFloor {
+    position_mm: f64,
+}
+#[derive(Deserialize)]
+struct SaidValue {
+    name: String,
+    value: f64,
+    ci95: [f64; 2],
+}
+#[derive(Deserialize)]
+struct SaidFit {
+    recordings: Vec<SaidRecording>,
+    reduced_chi2: f64,
+}
+#[derive(Deserialize)]
+struct SaidRecording {
+    role: String,
+    position_rmse_mm: f64,
+}
+
+/// Diagnoses the cases in `folder` that have no diagnosis yet, without the truth; then opens it.
+///
+/// # Errors
+/// If a case can't be diagnosed, or the truth isn't the one that was sealed.
+pub fn score(
+    folder: &Path,
+    seed: u64,
+    told: &(dyn Fn(f64) + Sync),
+) -> std::result::Result<(Vec<Result>, Tally), ChallengeError> {
+    let read =
+        |file: &Path| std::fs::read_to_string(file).map_err(|e| ChallengeError::file(file, e));
+    let nominal = Source::load(&folder.join(NOMINAL), &[])?;
+    let entries = std::fs::read_dir(folder).map_err(|e| ChallengeError::file(folder, e))?;
+    let mut cases: Vec<PathBuf> = entries
+        .filter_map(|e| e.ok().map(|e| e.path()))
+        .filter(|p| p.join(RECORDINGS[0]).is_dir())
+        .collect();
+    cases.sort();
+    let recordings = |case: &Path, from: std::ops::Range<usize>| -> Vec<PathBuf> {
+        RECORDINGS[from].iter().map(|r| case.join(r)).collect()
+    };
+    for (i, case) in cases.iter().enumerate() {
+        told(i as f64 / cases.len() as f64);
+        let file = case.join(DIAGNOSIS);
+        if file.exists() {
+            continue;
+        }
+        let request = Request {
+            source: &nominal,
+            train: &recordings(case, 0..2),
+            holdout: &recordings(case, 2..4),
+            effects: &[],
+            seed,
+        };
+        let (diagnosis, _) = diagnose(&request, &|share| {
+            told((i as f64 + share) / cases.len() as f64);
+        })
+        .map_err(|source| ChallengeError::Diagnosis {
+            case: case.display().to_string(),
+            source,
+        })?;
+        let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
+        let part = case.join("diagnosis.part");
+        std::fs::write(&part, text)
+            .and_then(|()| std::fs::rename(&part, &file))
+            .map_err(|e| ChallengeError::file(&file, e))?;
+    }
+    // all is said; now the truth
+    let sealed = read(&folder.join(TRUTH))?;
+    if hash(&sealed) != read(&folder.join(SEAL))?.trim() {
+        return Err(ChallengeError::Unfit(format!(
+            "`{TRUTH}` is not the truth that was sealed in `{SEAL}`; make the challenge anew"
+        )));
+    }
+    let unreadable = |what: &Path, e: serde_json::Error| {
+        ChallengeError::Unfit(format!("`{}`: {e}", what.display()))
+    };
+    let truths: Vec<Truth> =
+        serde_json::from_str(&sealed).map_err(|e| unreadable(&folder.join(TRUTH), e))?;
+    let mut results = Vec::new();
+    for truth in truths {
+        let case = folder.join(&truth.case);
+        let file = case.join(DIAGNOSIS);
+        let said: Said = serde_json::from_str(&read(&file)?).map_err(|e| unreadable(&file, e))?;
+        let request = Request {
+            source: &nominal,
+            train: &recordings(&case, 0..2),
+            holdout: &recordings(&case, 2..4),
+            effects: &[],
+            seed,
+        };
+        let known: Vec<(String, String, Vec<f64>)> = (truth.effects.iter())
+            .filter(|e| e.id != Concealed::FOREIGN)
+            .map(|e| {
+                let values = e.values.iter().map(|(_, v)| *v).collect();
+                (e.id.clone(), e.form.clone(), values)
+            })
+            .collect();
+        let best = if known.is_empty() {
+            None
+        } else {
+            oracle(&request, &known).ok()
+        };
+        results.push(judge(truth, &said, best));
+    }
+    let tally = Tally::of(&results);
+    told(1.0);
+    Ok((results, tally))
+}
+
+fn judge(truth: Truth, said: &Said, oracle: Option<f64>) -> Result {
+    let ids: Vec<String> = (said.effects.iter().map(|e| e.id.clone()))
+        .chain(said.alternatives.iter().map(|a| a.id.clone()))
+        .collect();
+    let right = match truth.effects.len() {
+        0 => said.verdict == "none",
+        1 if truth.effects[0].id == Concealed::FOREIGN => said.verdict == "unexplained",
+        _ => truth.effects.iter().all(|e| ids.contains(&e.id)),
+    };
+    let first = said.effects.first();
+    let hook = |e: &Concealed| first.is_some_and(|f| f.hook == e.hook);
+    let mut values = Vec::new();
+    for e in &truth.effects {
+        let named = said.effects.iter().find(|n| n.id == e.id);
+        for (name, value) in &e.values {
+            let same = named.and_then(|n| n.parameters.iter().find(|p| p.name == *name));
+            if let Some(p) = same {
+                let holds = p.ci95[0] <= *value && *value <= p.ci95[1];
+                values.push(((p.value - value).abs() / value.abs().max(1e-9), holds));
+            }
+        }
+    }
+    let held: Vec<f64> = (said.augmented.recordings.iter())
+        .filter(|r| r.role == "holdout")
+        .map(|r| r.position_rmse_mm)
+        .collect();
+    let held = (held.iter().map(|x| x * x).sum::<f64>() / held.len().max(1) as f64).sqrt();
+    Result {
+        right_hook: truth.effects.first().is_some_and(hook),
+        verdict: said.verdict.clone(),
+        visible: (said.baseline.reduced_chi2 - 1.0).max(0.0).sqrt(),
+        over_oracle: oracle.map(|o| held / o.max(said.floor.position_mm)),
+        seconds: said.seconds,
+        said: ids,
+        right,
+        values,
+        truth,
+    }
+}
+
+impl Tally {
+    fn of(results: &[Result]) -> Self {
+        let mut tally = Self::default();
+        let (mut errors, mut held, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+        for r in results {
+            let foreign = r.truth.effects.iter().any(|e| e.id == Concealed::FOREIGN);
+            let visible = r.visible > VISIBLE;
+            match r.truth.effects.len() {
+                0 => {
+                    tally.controls.0 += 1;
+                    tally.controls.1 += usize::from(!r.right);
+                }
+                1 if foreign && visible => {
+                    tally.foreigners.0 += 1;
+                    let silent = ["effect", "recording", "several"].contains(&r.verdict.as_str());
+                    tally.foreigners.1 += usize::from(silent);
+                }
+                1 if visible && !foreign => {
+                    let id = &r.truth.effects[0].id;
+                    tally.singles.0 += 1;
+                    tally.singles.1 += usize::from(r.right);
+                    tally.first += usize::from(r.said.first() == Some(id));
+                    tally.third += usize::from(r.said.iter().take(3).any(|s| s == id));
+                    tally.hooks += usize::from(r.right_hook);
+                }
+                2 if visible => {
+                    tally.doubles.0 += 1;
+                    tally.doubles.1 += usize::from(r.right);
+                }
+                _ => {}
+            }
+            if visible && !foreign {
+                errors.extend(r.values.iter().copied());
+                ratios.extend(r.over_oracle);
+            }
+        }
+        let inside = errors.iter().filter(|(_, holds)| *holds).count();
+        tally.coverage = inside as f64 / errors.len() as f64;
+        held.extend(errors.iter().map(|(e, _)| *e));
+        tally.value_error = median(held);
+        tally.over_oracle = median(ratios);
+        tally
+    }
+}
+
+/// The middle one; not a number if there is none.
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
