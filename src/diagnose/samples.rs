@@ -11,7 +11,7 @@ const STILL: f64 = 30.0;
 /// Rows that are averaged at most.
 const BLOCK: usize = 5;
 /// Every so many rows on the way, one is taken.
-const STRIDE: usize = 4;
+const STRIDE: usize = 6;
 /// Error of the time that a moving row is taken at [s].
 const CLOCK: f64 = 0.01;
 /// Share of the robot's speed that quasi-static states of moving rows may be wrong by, as a time [s].

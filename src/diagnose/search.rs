@@ -34,7 +34,9 @@ pub struct Candidate {
 
 /// How many forms are fitted in a round, of different effects.
 const FITTED: usize = 8;
-/// Steps of a fit.
+/// Steps after which forms whose chi2 is so many times the least are given up, and steps of the others from there.
+const FIRST_STEPS: usize = 3;
+const HOPELESS: f64 = 4.0;
 const STEPS: usize = 10;
 
 /// Fits the forms that promise most when they are added to `base`, the best first.
@@ -83,18 +85,37 @@ pub fn round(
         }
     }
     done.store(0, std::sync::atomic::Ordering::Relaxed);
-    let mut fitted: Vec<Candidate> = chosen
+    let first: Vec<Candidate> = chosen
         .par_iter()
         .filter_map(|(form, at)| {
             let trial = with(form);
             // the linearised optimum may be far; the typical value is always a state that was found
-            let starts = [at.clone(), trial.typical(&here.at)];
-            let fits = starts
-                .iter()
-                .filter_map(|start| trial.fit(start, STEPS).ok());
-            let best = fits.min_by(|a, b| a.chi2().total_cmp(&b.chi2()));
-            tick(chosen.len(), 0.5, 1.0);
-            best.map(|fit| Candidate { form: *form, fit })
+            let starts = [at.clone(), trial.typical(&here.at)].map(|start| {
+                let left = trial.evaluate(&start).map(|(r, _)| r.norm_squared());
+                (left.unwrap_or(f64::INFINITY), start)
+            });
+            let start = usize::from(starts[1].0 < starts[0].0);
+            let fit = trial.fit(&starts[start].1, FIRST_STEPS);
+            tick(chosen.len(), 0.5, 0.8);
+            let fit = fit.ok()?;
+            Some(Candidate { form: *form, fit })
+        })
+        .collect();
+    let least = first
+        .iter()
+        .map(|c| c.fit.chi2())
+        .fold(f64::INFINITY, f64::min);
+    done.store(0, std::sync::atomic::Ordering::Relaxed);
+    let mut fitted: Vec<Candidate> = first
+        .into_par_iter()
+        .filter(|c| c.fit.chi2() < HOPELESS * least)
+        .map(|c| {
+            let fit = with(&c.form).fit(&c.fit.at, STEPS);
+            tick(chosen.len(), 0.8, 1.0);
+            Candidate {
+                fit: fit.unwrap_or(c.fit),
+                ..c
+            }
         })
         .collect();
     fitted.sort_by(|a, b| {
