@@ -13,6 +13,8 @@ use nalgebra::{DMatrix, Rotation3, UnitQuaternion, Vector3};
 pub const CHANNELS: usize = 12;
 /// Newton iterations a sample may take on average; a model that takes more is no candidate, since its search never ends.
 const ITERATIONS: usize = 40;
+/// Iterations that a failure is taken for.
+const FAILURE: usize = 200;
 /// Smallest share of the way from one sample to the next that is solved at once, for the same reason.
 const SMALLEST: f64 = 1.0 / 32.0;
 /// A scenario's model under the motor angles of a recording, and its markers.
@@ -53,6 +55,8 @@ impl Shown {
 pub struct Run {
     shown: Shown,
     solver: SteadySolver,
+    /// The state at rest.
+    rest: Saved,
     /// Newton iterations that are left.
     left: usize,
 }
@@ -66,18 +70,29 @@ impl Run {
     /// # Errors
     /// If the scenario can't be built or has no rest.
     pub fn new(source: &Source, samples: &Samples) -> Result<Self, CompareError> {
+        Self::with(source, samples, ITERATIONS * samples.list.len(), SMALLEST)
+    }
+
+    fn with(
+        source: &Source,
+        samples: &Samples,
+        left: usize,
+        smallest: f64,
+    ) -> Result<Self, CompareError> {
         let mut shown = Shown::new(source, samples)?;
         let system = &mut shown.model.system;
         let mut options = shown.model.solver.steady_options();
-        options.smallest_increment = options.smallest_increment.max(SMALLEST);
+        options.smallest_increment = options.smallest_increment.max(smallest);
         let mut solver = SteadySolver::new(system, options).map_err(RunError::from)?;
         solver
             .advance(system, samples.rest)
             .map_err(RunError::from)?;
+        let rest = system.save();
         Ok(Self {
             shown,
             solver,
-            left: ITERATIONS * samples.list.len(),
+            rest,
+            left,
         })
     }
 
@@ -89,17 +104,25 @@ impl Run {
         guide: Option<&Guide>,
     ) -> Result<(), CompareError> {
         let time = samples.list[i].time;
-        let system = &mut self.shown.model.system;
-        if let Some(guide) = guide {
-            let before = system.save();
-            system.pose_as(&guide[i]);
-            if let Ok(report) = self.solver.advance(system, time) {
-                return self.spend(report.iterations, time);
+        let before = self.shown.model.system.save();
+        // from the guide's state, from the sample before, from rest
+        let starts = guide.map(|g| &g[i]).into_iter();
+        let starts = starts
+            .chain([&before, &self.rest])
+            .cloned()
+            .collect::<Vec<_>>();
+        let mut last = None;
+        for start in starts {
+            let system = &mut self.shown.model.system;
+            system.pose_as(&start);
+            match self.solver.advance(system, time) {
+                Ok(report) => return self.spend(report.iterations, time),
+                Err(e) => last = Some(e),
             }
             system.restore(&before);
+            self.spend(FAILURE, time)?;
         }
-        let report = self.solver.advance(system, time).map_err(RunError::from)?;
-        self.spend(report.iterations, time)
+        Err(RunError::from(last.expect("there is a start")).into())
     }
 
     fn spend(&mut self, iterations: usize, time: f64) -> Result<(), CompareError> {
@@ -209,12 +232,13 @@ fn difference(
     all
 }
 
-/// Simulated less recorded at every sample, `CHANNELS` numbers each.
+/// Simulated less recorded at every sample, `CHANNELS` numbers each, however long it takes.
 ///
 /// # Errors
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
-    Ok(Run::new(source, samples)?.all(samples, None)?.0)
+    let mut run = Run::with(source, samples, usize::MAX, 0.0)?;
+    Ok(run.all(samples, None)?.0)
 }
 
 /// Poses of both markers as motion capture sees them, in steady states one after the other.

@@ -1,0 +1,53 @@
+//! Blind challenges: the same seed makes the same recordings, nothing is named where nothing is concealed, and a truth
+//! that was changed afterwards is refused.
+
+use auxetica::challenge::{RECORDINGS, SEAL, Spec, TRUTH, conceal, score};
+use std::path::Path;
+
+fn spec() -> (Spec, auxetica::config::Source) {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/challenges/small.ron");
+    let (mut spec, nominal) = Spec::load(&file).unwrap_or_else(|e| panic!("{e}"));
+    (spec.controls, spec.singles, spec.set_points) = (1, 0, 8);
+    (spec, nominal)
+}
+
+#[test]
+fn a_control_is_given_nothing_and_its_truth_is_sealed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (spec, nominal) = spec();
+    let made = |name: &str| {
+        let out = folder.path().join(name);
+        conceal(&spec, &nominal, &out, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+        out
+    };
+    let (one, two) = (made("one"), made("two"));
+    for recording in RECORDINGS {
+        let text = |out: &Path| {
+            let file = out.join("case_000").join(recording);
+            std::fs::read(file.join("mocap_frame_data_history.csv")).expect("poses")
+        };
+        assert!(text(&one) == text(&two), "{recording} differs");
+    }
+    assert!(
+        conceal(&spec, &nominal, &one, &|_| ()).is_err(),
+        "it was there"
+    );
+
+    let (results, tally) = score(&one, 1, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(tally.controls, (1, 0), "{:?}", results[0].said);
+    std::fs::write(one.join(TRUTH), "[]").expect("changed");
+    let refused = score(&one, 1, &|_| ()).err().expect("refused").to_string();
+    assert!(refused.contains(SEAL), "{refused}");
+}
+
+#[test]
+fn a_wrong_specification_is_told_with_its_line() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("spec.ron");
+    std::fs::write(&file, "(\n    scenario: \"x.ron\",\n    seeds: 3,\n)").expect("written");
+    let told = Spec::load(&file).err().expect("refused").to_string();
+    assert!(
+        told.contains("spec.ron:3") && told.contains("seeds"),
+        "{told}"
+    );
+}
