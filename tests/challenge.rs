@@ -36,7 +36,10 @@ fn a_control_is_given_nothing_and_its_truth_is_sealed() {
     let (results, tally) = score(&one, 1, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(tally.controls, (1, 0), "{:?}", results[0].said);
     std::fs::write(one.join(TRUTH), "[]").expect("changed");
-    let refused = score(&one, 1, &|_| ()).err().expect("refused").to_string();
+    let Err(refused) = score(&one, 1, &|_| ()) else {
+        panic!("a changed truth was taken");
+    };
+    let refused = refused.to_string();
     assert!(refused.contains(SEAL), "{refused}");
 }
 
@@ -45,7 +48,10 @@ fn a_wrong_specification_is_told_with_its_line() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("spec.ron");
     std::fs::write(&file, "(\n    scenario: \"x.ron\",\n    seeds: 3,\n)").expect("written");
-    let told = Spec::load(&file).err().expect("refused").to_string();
+    let Err(told) = Spec::load(&file) else {
+        panic!("an unknown field was taken");
+    };
+    let told = told.to_string();
     assert!(
         told.contains("spec.ron:3") && told.contains("seeds"),
         "{told}"

@@ -113,10 +113,10 @@ fn misuse_is_told_with_a_remedy() {
             effects,
             seed: 1,
         };
-        diagnose(&request, &|_| ())
-            .err()
-            .expect("refused")
-            .to_string()
+        match diagnose(&request, &|_| ()) {
+            Err(e) => e.to_string(),
+            Ok((d, _)) => panic!("{}", d.words),
+        }
     };
     let source = scenario(&[]);
     assert!(refused(&source, &train[..1], &holdout, &[]).contains("--train DIR"));

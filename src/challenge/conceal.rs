@@ -219,7 +219,7 @@ impl Draw<'_> {
         let strength = random.random_range(least.ln()..=most.ln()).exp();
         let value = |q: &crate::identify::Quantity, random: &mut Pcg64Mcg| {
             let vary = random.random_range(-0.7_f64..0.7).exp();
-            let value = if q.typical == q.null {
+            let value = if (q.typical - q.null).abs() < 1e-12 {
                 q.typical * vary
             } else if q.typical * q.null > 0.0 && (q.typical / q.null).ln().abs() > 1.0 {
                 // stiffnesses and saturations, which are absent where they are large
