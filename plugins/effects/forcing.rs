@@ -11,10 +11,21 @@ effect!(
     "tilt or invert the robot",
     "weight",
     |robot| {
-        let form = Variant::new("along z")
-            .number("g_z", "m/s2", (0.0, 9.81), (-12.0, 12.0))
-            .append("forcing", "(apply: Gravity(g: (0, 0, {0})))");
-        if robot.gravity { vec![] } else { vec![form] }
+        let g_z = |v: Variant| v.number("g_z", "m/s2", (0.0, 9.81), (-12.0, 12.0));
+        let gravity = |v: Variant| v.append("forcing", "(apply: Gravity(g: (0, 0, {0})))");
+        let mut forms = vec![gravity(g_z(Variant::new("along z")))];
+        // a scenario without gravity lacks the weight of what the platform carries, too
+        if let Some(platform) = robot.cylinders.last() {
+            let load = g_z(Variant::new("along z, and a payload"))
+                .number("mass", "kg", (0.0, 0.08), (0.0, 2.0))
+                .number("x", "m", (0.0, 0.01), (-0.06, 0.06))
+                .number("y", "m", (0.0, 0.01), (-0.06, 0.06));
+            forms.push(gravity(load).append(
+                "forcing",
+                format!("(on: {platform:?}, apply: Payload(mass: {{1}}, at: ({{2}}, {{3}}, 0), g: (0, 0, {{0}})))"),
+            ));
+        }
+        if robot.gravity { vec![] } else { forms }
     }
 );
 
