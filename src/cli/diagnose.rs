@@ -114,6 +114,9 @@ fn show(d: &Diagnosis) -> String {
     for c in d.location.channels.iter().take(3) {
         text += &format!("  {} {}: {:.0} %\n", c.body, c.channel, 100.0 * c.share);
     }
+    for alarm in &d.alarms {
+        text += &format!("note: {alarm}\n");
+    }
     text += &format!("\n{}\n", results(&d.baseline, &d.augmented));
     text += &format!(
         "floor {:.3} mm, {:.2} mrad; mean squared residual {:.2} before, {:.2} after; {:.1} s",

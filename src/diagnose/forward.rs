@@ -14,9 +14,9 @@ pub const CHANNELS: usize = 12;
 /// Newton iterations a sample may take on average; a model that takes more is no candidate, since its search never ends.
 const ITERATIONS: usize = 40;
 /// Iterations that a failure is taken for.
-const FAILURE: usize = 200;
+const FAILURE: usize = 300;
 /// Smallest share of the way from one sample to the next that is solved at once, for the same reason.
-const SMALLEST: f64 = 1.0 / 32.0;
+const SMALLEST: f64 = 1.0 / 8.0;
 /// A scenario's model under the motor angles of a recording, and its markers.
 pub struct Shown {
     model: Model,
@@ -52,7 +52,8 @@ impl Shown {
 }
 
 /// A scenario that is solved under the motor angles of a recording.
-pub struct Run {
+pub struct Run<'a> {
+    guide: Option<&'a Guide>,
     shown: Shown,
     solver: SteadySolver,
     /// The state at rest.
@@ -64,21 +65,21 @@ pub struct Run {
 /// States of all samples, from which others are found faster.
 pub type Guide = Vec<Saved>;
 
-impl Run {
-    /// Builds the scenario and finds its rest.
+impl<'a> Run<'a> {
+    /// Builds the scenario and finds its rest. With a guide, states that are hard to find are given up early; without, it
+    /// takes as long as it takes.
     ///
     /// # Errors
     /// If the scenario can't be built or has no rest.
-    pub fn new(source: &Source, samples: &Samples) -> Result<Self, CompareError> {
-        Self::with(source, samples, ITERATIONS * samples.list.len(), SMALLEST)
-    }
-
-    fn with(
+    pub fn new(
         source: &Source,
         samples: &Samples,
-        left: usize,
-        smallest: f64,
+        guide: Option<&'a Guide>,
     ) -> Result<Self, CompareError> {
+        let (left, smallest) = match guide {
+            Some(_) => (ITERATIONS * samples.list.len(), SMALLEST),
+            None => (usize::MAX, 0.0),
+        };
         let mut shown = Shown::new(source, samples)?;
         let system = &mut shown.model.system;
         let mut options = shown.model.solver.steady_options();
@@ -89,6 +90,7 @@ impl Run {
             .map_err(RunError::from)?;
         let rest = system.save();
         Ok(Self {
+            guide,
             shown,
             solver,
             rest,
@@ -97,20 +99,14 @@ impl Run {
     }
 
     /// Goes to sample `i`, by way of the guide's state if there is one.
-    fn go(
-        &mut self,
-        samples: &Samples,
-        i: usize,
-        guide: Option<&Guide>,
-    ) -> Result<(), CompareError> {
+    fn go(&mut self, samples: &Samples, i: usize) -> Result<(), CompareError> {
         let time = samples.list[i].time;
         let before = self.shown.model.system.save();
-        // from the guide's state, from the sample before, from rest
-        let starts = guide.map(|g| &g[i]).into_iter();
-        let starts = starts
-            .chain([&before, &self.rest])
-            .cloned()
-            .collect::<Vec<_>>();
+        // from the guide's state, or from the sample before, or from rest
+        let starts = match self.guide {
+            Some(guide) => [guide[i].clone(), before.clone()],
+            None => [before.clone(), self.rest.clone()],
+        };
         let mut last = None;
         for start in starts {
             let system = &mut self.shown.model.system;
@@ -138,14 +134,10 @@ impl Run {
     ///
     /// # Errors
     /// If a sample has no steady state.
-    pub fn all(
-        &mut self,
-        samples: &Samples,
-        guide: Option<&Guide>,
-    ) -> Result<(Vec<f64>, Guide), CompareError> {
+    pub fn all(&mut self, samples: &Samples) -> Result<(Vec<f64>, Guide), CompareError> {
         let (mut apart, mut states) = (Vec::new(), Vec::new());
         for i in 0..samples.list.len() {
-            self.go(samples, i, guide)?;
+            self.go(samples, i)?;
             apart.extend(difference(
                 &self.shown.model,
                 &self.shown.markers,
@@ -166,7 +158,6 @@ impl Run {
     pub fn derivatives(
         &mut self,
         samples: &Samples,
-        guide: Option<&Guide>,
         pairs: Vec<(f64, [Shown; 2])>,
     ) -> Result<(Vec<f64>, DMatrix<f64>), CompareError> {
         let runs = pairs.iter().flat_map(|(_, runs)| runs);
@@ -179,7 +170,7 @@ impl Run {
         let mut apart = Vec::new();
         let mut rows: Vec<f64> = Vec::new();
         for i in 0..samples.list.len() {
-            self.go(samples, i, guide)?;
+            self.go(samples, i)?;
             apart.extend(difference(
                 &self.shown.model,
                 &self.shown.markers,
@@ -237,8 +228,7 @@ fn difference(
 /// # Errors
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
-    let mut run = Run::with(source, samples, usize::MAX, 0.0)?;
-    Ok(run.all(samples, None)?.0)
+    Ok(Run::new(source, samples, None)?.all(samples)?.0)
 }
 
 /// Poses of both markers as motion capture sees them, in steady states one after the other.

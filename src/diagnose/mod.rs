@@ -41,6 +41,8 @@ const EXPLAINED: f64 = 0.6;
 const ALIKE: f64 = 0.1;
 /// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
 const ODDS: f64 = 6.0;
+/// Deviations from its prior beyond which a calibrated number is told.
+const FAR: f64 = 2.5;
 /// Mean platform error [mm] of the calibrated scenario beyond which a recording is taken for that of another robot.
 const OTHER_ROBOT: f64 = 40.0;
 
@@ -243,6 +245,7 @@ pub fn diagnose(
         ),
         augmented: scores.fitted(fitted[..own.len()].to_vec(), here.chi2() / measured),
         explained,
+        alarms: alarms(&own, &here.at),
         audit: audit(&train, &holdout),
         seconds: start.elapsed().as_secs_f64(),
     };
@@ -494,6 +497,29 @@ fn name_all(
         }
     };
     named.iter().map(name).collect()
+}
+
+/// Numbers at an end of their range, or far from what was known beforehand.
+fn alarms(own: &[Parameter], at: &[f64]) -> Vec<String> {
+    let alarm = |(p, value): (&Parameter, &f64)| {
+        let near = |end: f64| (value - end).abs() < 1e-3 * p.width();
+        if near(p.range.0) || near(p.range.1) {
+            return Some(format!(
+                "{} ended at an end of its range, {value:.4} {}: the range is too narrow, or the number stands for physics \
+                 that is missing",
+                p.name, p.unit
+            ));
+        }
+        let (mean, deviation) = p.prior?;
+        let away = (value - mean).abs() / deviation;
+        (away > FAR).then(|| {
+            format!(
+                "{} is {value:.4} {}, {away:.1} deviations from what was known",
+                p.name, p.unit
+            )
+        })
+    };
+    own.iter().zip(at).filter_map(alarm).collect()
 }
 
 fn floor(data: &[Samples]) -> Floor {

@@ -124,7 +124,11 @@ pub fn page(d: &Diagnosis, scenario: &str) -> String {
             cells(a)
         );
     }
-    html += "</table><h2>The recordings</h2><ul>";
+    html += "</table><ul>";
+    for alarm in &d.alarms {
+        let _ = write!(html, "<li>{}</li>", escaped(alarm));
+    }
+    html += "</ul><h2>The recordings</h2><ul>";
     for line in &d.audit {
         let _ = write!(html, "<li>{}</li>", escaped(line));
     }

@@ -119,8 +119,8 @@ impl<'a> Trial<'a> {
         let source = self.scenario(at)?;
         let (mut all, mut guides) = (Vec::new(), Vec::new());
         for (r, samples) in self.data.iter().enumerate() {
-            let run = Run::new(&source, samples);
-            let run = run.and_then(|mut run| run.all(samples, self.guides.get(r)));
+            let run = Run::new(&source, samples, self.guides.get(r));
+            let run = run.and_then(|mut run| run.all(samples));
             let (apart, guide) = run.map_err(|e| e.to_string())?;
             all.extend(whitened(&apart, samples, self.floor));
             guides.push(guide);
@@ -143,7 +143,8 @@ impl<'a> Trial<'a> {
         let steps: Vec<f64> = columns.clone().map(|j| 1e-3 * self.scale(j)).collect();
         let (mut residuals, mut slopes) = (Vec::new(), Vec::new());
         for (r, samples) in self.data.iter().enumerate() {
-            let run = |source: &Source| Run::new(source, samples).map_err(|e| e.to_string());
+            let run = Run::new(&source, samples, self.guides.get(r));
+            let mut run = run.map_err(|e| e.to_string())?;
             let mut pairs = Vec::new();
             for (j, step) in columns.clone().zip(&steps) {
                 // at the end of its range a value goes one way only
@@ -155,7 +156,7 @@ impl<'a> Trial<'a> {
                 let runs = [shown(up)?, shown(-down)?];
                 pairs.push(((up + down) / 2.0, runs));
             }
-            let derived = run(&source)?.derivatives(samples, self.guides.get(r), pairs);
+            let derived = run.derivatives(samples, pairs);
             let (apart, jacobian) = derived.map_err(|e| e.to_string())?;
             residuals.extend(whitened(&apart, samples, self.floor));
             let ones = whitened(&vec![1.0; apart.len()], samples, self.floor);
@@ -251,7 +252,11 @@ impl<'a> Trial<'a> {
                 }
             }
             let Some(there) = better else { break };
-            here = self.linear(&there, 0..n)?;
+            // where states are barely found, what was reached stands
+            let Ok(next) = self.linear(&there, 0..n) else {
+                break;
+            };
+            here = next;
             damping = (damping / 30.0).max(DAMPING);
         }
         Ok(here)

@@ -46,6 +46,8 @@ pub struct Diagnosis {
     pub augmented: Fitted,
     /// Share of the mismatch, beyond noise, that the named effects explain.
     pub explained: f64,
+    /// Calibrated numbers that ended where they should not be.
+    pub alarms: Vec<String>,
     /// What is odd about the recordings.
     pub audit: Vec<String>,
     /// Time it took [s].
