@@ -52,6 +52,18 @@ fn a_wrong_specification_is_told_with_its_line() {
         panic!("an unknown field was taken");
     };
     let told = told.to_string();
+    let small = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/challenges/small.ron");
+    let text = std::fs::read_to_string(small).expect("it is shipped");
+    let reversed = text.replace("strength: (0.7, 3)", "strength: (3, 0.7)");
+    assert_ne!(text, reversed);
+    std::fs::write(&file, reversed).expect("written");
+    let Err(e) = Spec::load(&file) else {
+        panic!("a reversed range was taken");
+    };
+    assert!(
+        e.to_string().contains("`strength` goes from 3 to 0.7"),
+        "{e}"
+    );
     assert!(
         told.contains("spec.ron:3") && told.contains("seeds"),
         "{told}"

@@ -95,8 +95,10 @@ effect!(
     "Betti's reciprocity for Stölzle et al. 2023, eq. 2-3",
     |robot| {
         let variant = Variant::new("").number("share", "-", (0.0, 0.5), (-2.0, 3.0));
-        let auxetic = (0..robot.laws).filter(|_| robot.handed.iter().any(|h| *h != 0.0));
-        let filled = auxetic.fold(variant, |v, i| {
+        if robot.handed_laws.is_empty() {
+            return vec![];
+        }
+        let filled = robot.handed_laws.iter().fold(variant, |v, i| {
             v.set(format!("laws[{i}].apply.reciprocal"), "{0}")
         });
         vec![filled]

@@ -44,7 +44,7 @@ impl RodLaw for Creep {
         branch::size(rod)
     }
 
-    fn remember(&self, now: &Moment<'_>, _dt: f64, rod: &mut LawView<'_>) {
+    fn remember(&self, now: &Moment<'_>, rod: &mut LawView<'_>) {
         let since = branch::since(rod, now.time);
         branch::update(rod, now.time, |strain, was, _| {
             since.map_or(strain, |dt| self.viscous(strain, was, dt))

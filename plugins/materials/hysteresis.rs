@@ -48,7 +48,7 @@ impl RodLaw for Hysteresis {
         branch::size(rod)
     }
 
-    fn remember(&self, now: &Moment<'_>, _dt: f64, rod: &mut LawView<'_>) {
+    fn remember(&self, now: &Moment<'_>, rod: &mut LawView<'_>) {
         branch::update(rod, now.time, |strain, was, is_curvature| {
             self.follow(strain, was, is_curvature)
         });

@@ -32,7 +32,7 @@ impl RodLaw for KelvinVoigt {
         branch::size(rod)
     }
 
-    fn remember(&self, now: &Moment<'_>, _dt: f64, rod: &mut LawView<'_>) {
+    fn remember(&self, now: &Moment<'_>, rod: &mut LawView<'_>) {
         branch::update(rod, now.time, |strain, _, _| strain);
     }
 }

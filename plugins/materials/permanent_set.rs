@@ -36,7 +36,7 @@ impl RodLaw for PermanentSet {
         rod.elements()
     }
 
-    fn remember(&self, _now: &Moment<'_>, _dt: f64, rod: &mut LawView<'_>) {
+    fn remember(&self, _now: &Moment<'_>, rod: &mut LawView<'_>) {
         for e in 0..rod.elements() {
             let extension = self.extension(rod, e);
             let largest = &mut rod.memory_mut()[e];

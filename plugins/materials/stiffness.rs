@@ -58,13 +58,7 @@ impl RodLaw for Stiffness {
             sum / f64::from(count.max(1))
         };
         for e in 0..n {
-            let grown = 1.0
-                + stretch
-                    * if stretch == 0.0 {
-                        0.0
-                    } else {
-                        twist_of(rod, e)
-                    };
+            let grown = 1.0 + stretch * twist_of(rod, e);
             let common = (along(e as f64 + 0.5) * grown).max(0.01);
             let factors = Vector3::new(shear, shear, axial).map(|f| f.max(0.01)) * common;
             rod.set_shear_stretch(e, rod.shear_stretch(e).component_mul(&factors));

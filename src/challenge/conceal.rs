@@ -1,6 +1,6 @@
 //! Draws cases and simulates their recordings.
 
-use super::spec::Spec;
+use super::spec::{Foreign, Spec};
 use super::truth::{Concealed, Truth};
 use super::{ChallengeError, NOMINAL, RECORDINGS, SEAL, TRUTH, hash, tours};
 use crate::config::{Problem, Problems, Source};
@@ -29,9 +29,32 @@ impl Spec {
         let spec: Self = crate::config::options().from_str(&text).map_err(|e| {
             ChallengeError::Unfit(format!("{}:{}: {}", file.display(), e.span, e.code))
         })?;
+        if let Some(e) = spec.wrong() {
+            let file = file.display();
+            return Err(ChallengeError::Unfit(format!("{file}: {e}")));
+        }
         let folder = file.parent().unwrap_or(Path::new("."));
         let source = Source::load(&folder.join(&spec.scenario), &[])?;
         Ok((spec, source))
+    }
+
+    /// What makes no sense, in words.
+    fn wrong(&self) -> Option<String> {
+        let (mesh, strength) = (&self.mesh, (*self.strength.0, *self.strength.1));
+        let reversed = |field: &str, least: f64, most: f64| {
+            let wrong = least > most || !least.is_finite() || !most.is_finite();
+            wrong.then(|| format!("`{field}` goes from {least} to {most}; give the least first"))
+        };
+        let foreign =
+            |f: &Foreign| reversed(&format!("range of `{}`", f.words), f.range.0, f.range.1);
+        reversed("mesh", mesh.1 as f64, mesh.2 as f64)
+            .or_else(|| reversed("strength", strength.0, strength.1))
+            .or_else(|| self.foreign.iter().find_map(foreign))
+            .or_else(|| {
+                (self.set_points < 3).then(|| {
+                    "`set_points` is less than 3, which no diagnosis takes; give more".into()
+                })
+            })
     }
 }
 
@@ -45,9 +68,15 @@ pub fn conceal(
     out: &Path,
     told: &(dyn Fn(f64) + Sync),
 ) -> Result<Vec<Truth>, ChallengeError> {
-    std::fs::create_dir(out).map_err(|e| ChallengeError::file(out, e))?;
     let own = Parameter::declared(nominal)?;
     let robot = Robot::of(nominal)?;
+    let (rods, recorded) = (robot.rods.len(), RobotGeometry::default().rods.len());
+    if rods != recorded {
+        return Err(ChallengeError::Unfit(format!(
+            "the scenario has {rods} rods, but recordings are of a robot with {recorded}; give a scenario of that robot"
+        )));
+    }
+    std::fs::create_dir(out).map_err(|e| ChallengeError::file(out, e))?;
     let count = spec.controls + spec.singles + spec.doubles + spec.foreigners;
     // the order of kinds tells nothing
     let mut kinds: Vec<Kind> = [
@@ -183,11 +212,11 @@ impl Draw<'_> {
         }
         let known = <dyn Effect>::all();
         let count = match kind {
-            Kind::Control | Kind::Foreign => 0,
-            Kind::Single => 1,
+            Kind::Control => 0,
+            Kind::Single | Kind::Foreign => 1,
             Kind::Double => 2,
         };
-        while effects.len() < count && kind != Kind::Foreign {
+        while effects.len() < count {
             let effect = &known[random.random_range(0..known.len())];
             let variants = effect.variants(self.robot);
             if variants.is_empty() || effects.iter().any(|e| e.id == effect.id()) {
@@ -200,7 +229,7 @@ impl Draw<'_> {
             effects.push(Concealed {
                 id: effect.id().to_owned(),
                 form: variant.name.clone(),
-                hook: format!("{:?}", effect.hook()).to_lowercase(),
+                hook: effect.hook().name(),
                 values: names.zip(values).collect(),
             });
         }

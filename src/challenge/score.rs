@@ -3,8 +3,9 @@
 use super::truth::{Concealed, Truth};
 use super::{ChallengeError, NOMINAL, RECORDINGS, SEAL, TRUTH, hash};
 use crate::config::Source;
+use crate::diagnose::verdict::{Diagnosis, Kind};
 use crate::diagnose::{Request, diagnose, oracle};
-use serde::Deserialize;
+use statrs::statistics::{Data, Median};
 use std::path::{Path, PathBuf};
 
 /// File of a case's diagnosis, kept so that an interrupted score goes on.
@@ -17,7 +18,7 @@ pub struct Result {
     /// The truth.
     pub truth: Truth,
     /// The verdict.
-    pub verdict: String,
+    pub verdict: Kind,
     /// Effects that were named, then alternatives.
     pub said: Vec<String>,
     /// Mismatch of the calibrated baseline in floors: the root of its mean squared residual less one.
@@ -41,11 +42,11 @@ pub struct Tally {
     pub controls: (usize, usize),
     /// Single effects that are visible; of these those named rightly, alone or in a class.
     pub singles: (usize, usize),
-    /// Of these, those that were named first; those among the first three; those with the right hook.
+    /// Of these, those that were named first.
     pub first: usize,
-    /// Those among the first three.
+    /// Of these, those among the first three.
     pub third: usize,
-    /// Those with the right hook.
+    /// Of these, those with the right hook.
     pub hooks: usize,
     /// Visible doubles, and those of which both effects were named.
     pub doubles: (usize, usize),
@@ -57,47 +58,6 @@ pub struct Tally {
     pub coverage: f64,
     /// Median of held-out errors over the oracle's.
     pub over_oracle: f64,
-}
-
-#[derive(Deserialize)]
-struct Said {
-    verdict: String,
-    effects: Vec<SaidEffect>,
-    alternatives: Vec<Id>,
-    floor: SaidFloor,
-    baseline: SaidFit,
-    augmented: SaidFit,
-    seconds: f64,
-}
-#[derive(Deserialize)]
-struct SaidEffect {
-    id: String,
-    hook: String,
-    parameters: Vec<SaidValue>,
-}
-#[derive(Deserialize)]
-struct Id {
-    id: String,
-}
-#[derive(Deserialize)]
-struct SaidFloor {
-    position_mm: f64,
-}
-#[derive(Deserialize)]
-struct SaidValue {
-    name: String,
-    value: f64,
-    ci95: [f64; 2],
-}
-#[derive(Deserialize)]
-struct SaidFit {
-    recordings: Vec<SaidRecording>,
-    reduced_chi2: f64,
-}
-#[derive(Deserialize)]
-struct SaidRecording {
-    role: String,
-    position_rmse_mm: f64,
 }
 
 /// Diagnoses the cases in `folder` that have no diagnosis yet, without the truth; then opens it.
@@ -163,7 +123,8 @@ pub fn score(
     for truth in truths {
         let case = folder.join(&truth.case);
         let file = case.join(DIAGNOSIS);
-        let said: Said = serde_json::from_str(&read(&file)?).map_err(|e| unreadable(&file, e))?;
+        let said: Diagnosis =
+            serde_json::from_str(&read(&file)?).map_err(|e| unreadable(&file, e))?;
         let request = Request {
             source: &nominal,
             train: &recordings(&case, 0..2),
@@ -190,17 +151,17 @@ pub fn score(
     Ok((results, tally))
 }
 
-fn judge(truth: Truth, said: &Said, oracle: Option<f64>) -> Result {
+fn judge(truth: Truth, said: &Diagnosis, oracle: Option<f64>) -> Result {
     let ids: Vec<String> = (said.effects.iter().map(|e| e.id.clone()))
         .chain(said.alternatives.iter().map(|a| a.id.clone()))
         .collect();
     let right = match truth.effects.len() {
-        0 => said.verdict == "none",
-        1 if truth.effects[0].id == Concealed::FOREIGN => said.verdict == "unexplained",
+        0 => said.verdict == Kind::None,
+        1 if truth.effects[0].id == Concealed::FOREIGN => said.verdict == Kind::Unexplained,
         _ => truth.effects.iter().all(|e| ids.contains(&e.id)),
     };
     let first = said.effects.first();
-    let hook = |e: &Concealed| first.is_some_and(|f| f.hook == e.hook);
+    let hook = |e: &Concealed| first.is_some_and(|f| f.hook.name() == e.hook);
     let mut values = Vec::new();
     for e in &truth.effects {
         let named = said.effects.iter().find(|n| n.id == e.id);
@@ -219,7 +180,7 @@ fn judge(truth: Truth, said: &Said, oracle: Option<f64>) -> Result {
     let held = (held.iter().map(|x| x * x).sum::<f64>() / held.len().max(1) as f64).sqrt();
     Result {
         right_hook: truth.effects.first().is_some_and(hook),
-        verdict: said.verdict.clone(),
+        verdict: said.verdict,
         visible: (said.baseline.reduced_chi2 - 1.0).max(0.0).sqrt(),
         over_oracle: oracle.map(|o| held / o.max(said.floor.position_mm)),
         seconds: said.seconds,
@@ -233,7 +194,7 @@ fn judge(truth: Truth, said: &Said, oracle: Option<f64>) -> Result {
 impl Tally {
     fn of(results: &[Result]) -> Self {
         let mut tally = Self::default();
-        let (mut errors, mut held, mut ratios) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut errors, mut ratios) = (Vec::new(), Vec::new());
         for r in results {
             let foreign = r.truth.effects.iter().any(|e| e.id == Concealed::FOREIGN);
             let visible = r.visible > VISIBLE;
@@ -244,7 +205,8 @@ impl Tally {
                 }
                 1 if foreign && visible => {
                     tally.foreigners.0 += 1;
-                    let silent = ["effect", "recording", "several"].contains(&r.verdict.as_str());
+                    let silent =
+                        [Kind::Effect, Kind::Recording, Kind::Several].contains(&r.verdict);
                     tally.foreigners.1 += usize::from(silent);
                 }
                 1 if visible && !foreign => {
@@ -268,15 +230,9 @@ impl Tally {
         }
         let inside = errors.iter().filter(|(_, holds)| *holds).count();
         tally.coverage = inside as f64 / errors.len() as f64;
-        held.extend(errors.iter().map(|(e, _)| *e));
-        tally.value_error = median(held);
-        tally.over_oracle = median(ratios);
+        let errors = errors.iter().map(|(error, _)| *error).collect::<Vec<_>>();
+        tally.value_error = Data::new(errors).median();
+        tally.over_oracle = Data::new(ratios).median();
         tally
     }
-}
-
-/// The middle one; not a number if there is none.
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }

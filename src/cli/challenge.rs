@@ -1,11 +1,10 @@
 //! `auxetica conceal` and `auxetica score`
 
-use super::progress::Meter;
+use super::progress::shared;
 use super::table::table;
 use super::{Failure, print};
 use crate::challenge::{self, CaseResult, Spec, Tally};
 use std::path::PathBuf;
-use std::sync::Mutex;
 
 #[derive(clap::Args)]
 pub(super) struct ConcealOptions {
@@ -37,7 +36,7 @@ pub(super) struct ScoreOptions {
 pub(super) fn conceal(options: &ConcealOptions, quiet: bool) -> Result<(), Failure> {
     let (mut spec, nominal) = Spec::load(&options.spec)?;
     spec.seed = options.seed.unwrap_or(spec.seed);
-    let told = shown("concealing", quiet);
+    let told = shared("concealing", quiet);
     let cases = challenge::conceal(&spec, &nominal, &options.out, &told)?;
     drop(told);
     print(&format!(
@@ -49,7 +48,7 @@ pub(super) fn conceal(options: &ConcealOptions, quiet: bool) -> Result<(), Failu
 }
 
 pub(super) fn score(options: &ScoreOptions, quiet: bool) -> Result<(), Failure> {
-    let told = shown("diagnosing", quiet);
+    let told = shared("diagnosing", quiet);
     let (results, tally) = challenge::score(&options.challenge, options.seed, &told)?;
     drop(told);
     print(&format!("{}\n{}", cases(&results), summary(&tally)))?;
@@ -70,15 +69,6 @@ pub(super) fn score(options: &ScoreOptions, quiet: bool) -> Result<(), Failure> 
     Ok(())
 }
 
-fn shown(what: &'static str, quiet: bool) -> impl Fn(f64) + Sync {
-    let meter = Mutex::new(Meter::new(what, quiet));
-    move |done| {
-        if let Ok(mut meter) = meter.lock() {
-            let _ = meter.update(done); // an interrupt ends the process at its second time
-        }
-    }
-}
-
 fn cases(results: &[CaseResult]) -> String {
     let rows = results.iter().map(|r| {
         let concealed = r
@@ -95,7 +85,7 @@ fn cases(results: &[CaseResult]) -> String {
                 concealed
             },
             format!("{:.1}", r.visible),
-            r.verdict.clone(),
+            r.verdict.name(),
             r.said.join(", "),
             (if r.right { "yes" } else { "no" }).into(),
             r.over_oracle.map_or(String::new(), |x| format!("{x:.2}")),

@@ -1,12 +1,11 @@
 //! `auxetica diagnose`
 
-use super::progress::Meter;
+use super::progress::shared;
 use super::table::table;
 use super::{Failure, ScenarioArgs, print, write_whole};
 use crate::diagnose::verdict::{Diagnosis, Estimated, Fitted};
 use crate::diagnose::{Request, diagnose};
 use std::path::{Path, PathBuf};
-use std::sync::Mutex;
 
 #[derive(clap::Args)]
 pub(super) struct Options {
@@ -47,12 +46,7 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
         effects: &options.effects,
         seed: options.seed,
     };
-    let meter = Mutex::new(Meter::new("diagnosing", quiet));
-    let told = |done: f64| {
-        if let Ok(mut meter) = meter.lock() {
-            let _ = meter.update(done); // an interrupt ends the process at its second time
-        }
-    };
+    let told = shared("diagnosing", quiet);
     let work = || diagnose(&request, &told);
     let (diagnosis, augmented) = match options.jobs {
         None => work()?,
@@ -68,7 +62,7 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
             pool.install(work)?
         }
     };
-    drop(meter);
+    drop(told);
     let to_stdout = options.json.as_deref() == Some(Path::new("-"));
     if !to_stdout {
         print(&show(&diagnosis))?;

@@ -2,8 +2,8 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 use std::ops::ControlFlow;
-use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
 /// Time before a bar is shown.
@@ -45,6 +45,16 @@ impl Meter {
             ControlFlow::Break(())
         } else {
             ControlFlow::Continue(())
+        }
+    }
+}
+
+/// A meter that several threads may tell.
+pub(super) fn shared(what: &'static str, quiet: bool) -> impl Fn(f64) + Sync {
+    let meter = Mutex::new(Meter::new(what, quiet));
+    move |done| {
+        if let Ok(mut meter) = meter.lock() {
+            let _ = meter.update(done); // an interrupt ends the process at its second time
         }
     }
 }

@@ -13,8 +13,8 @@ pub use made::make_recording;
 pub use mismatch::{BodyMismatch, Comparison, Worst};
 pub use observed::{Observed, SampleKind};
 pub(crate) use observed::{TABLE, motor_inputs};
-pub(crate) use simulated::markers;
 pub use simulated::{Mode, Simulated};
+pub(crate) use simulated::{markers, pose};
 
 use crate::config::{Problems, Source};
 use crate::engine::RunError;

@@ -1,12 +1,12 @@
 //! What a scenario shows under recorded motor angles.
 
 use super::{CompareError, Observed};
-use crate::config::Source;
+use crate::config::{Source, Vec3};
 use crate::engine::run::Progress;
-use crate::engine::scenario::{Marker, StepSize};
+use crate::engine::scenario::{Capture, Marker, StepSize};
 use crate::engine::{Model, RunError, SteadySolver};
 use crate::recordings::{MarkerFrame, OffsetZ, Pose};
-use nalgebra::{Rotation3, UnitQuaternion};
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
 /// How the scenario is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize)]
@@ -117,16 +117,20 @@ pub(crate) fn markers(model: &Model) -> Result<[Marker; 2], CompareError> {
     Ok([find(BODIES[0])?, find(BODIES[1])?])
 }
 
-/// A marker's pose; its rotation is from `rest` if given, else from the world's axes.
-pub(super) fn pose(model: &Model, marker: &Marker, rest: Option<&Pose>) -> Pose {
+/// A marker's pose as motion capture sees it; its rotation is from `rest` if given, else from the world's axes.
+pub(crate) fn pose(model: &Model, marker: &Marker, rest: Option<&Pose>) -> Pose {
     let (point, frame) = model
         .marker_pose(marker)
         .expect("the model was built with the marker's body");
     // rows of a frame are directors, so its transpose rotates the world's axes onto them
     let rotation = Rotation3::from_matrix_unchecked(frame.transpose());
     let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
+    let Capture { turn, shift } = &model.capture;
+    let vector = |v: &Option<Vec3>| v.map_or(Vector3::zeros(), |v| Vector3::from(*v));
+    let turn = UnitQuaternion::from_scaled_axis(vector(turn));
+    let point = turn * point + vector(shift);
     let from = rest.map_or(UnitQuaternion::identity(), |rest| rest.rotation);
-    Pose::from_parts(point.into(), rotation * from.inverse())
+    Pose::from_parts(point.into(), turn * rotation * from.inverse())
 }
 
 /// Steps the model to `time`.

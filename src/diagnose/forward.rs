@@ -1,16 +1,18 @@
 //! From a scenario to the residuals of recordings.
 
 use super::samples::{Phase, Samples};
-use crate::compare::CompareError;
+use crate::compare::{CompareError, markers, pose};
 use crate::config::Source;
-use crate::engine::scenario::{Capture, Datum, Marker};
+use crate::engine::scenario::{Datum, Marker};
 use crate::engine::system::Saved;
 use crate::engine::{Inputs, Model, RunError, Sensitivities, SteadySolver};
 use crate::recordings::Pose;
-use nalgebra::{DMatrix, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::DMatrix;
 
 /// Components of a sample: position and rotation of platform and ring.
 pub const CHANNELS: usize = 12;
+/// What no model is asked to explain, since meshes differ by as much: position [m], rotation [rad].
+pub const NUMERICS: (f64, f64) = (3e-5, 3e-4);
 /// Newton iterations a sample may take on average; a model that takes more is no candidate, since its search never ends.
 const ITERATIONS: usize = 40;
 /// Iterations that a failure is taken for.
@@ -20,8 +22,13 @@ const SMALLEST: f64 = 1.0 / 8.0;
 /// A scenario's model under the motor angles of a recording, and its markers.
 pub struct Shown {
     model: Model,
+    points: Points,
+}
+
+/// The markers, and their poses at rest, where they count from there.
+#[derive(Clone)]
+struct Points {
     markers: [Marker; 2],
-    /// Poses of the markers at rest, where they count from there.
     rest: [Pose; 2],
 }
 
@@ -32,7 +39,7 @@ impl Shown {
     /// If it can't be built, or has no rest where markers count from rest.
     pub fn new(source: &Source, samples: &Samples) -> Result<Self, CompareError> {
         let mut model = Model::build(source, Some(samples.inputs.clone()))?;
-        let markers = crate::compare::markers(&model)?;
+        let markers = markers(&model)?;
         model.system.set_time(samples.rest);
         if markers.iter().any(|marker| marker.datum == Datum::Rest) {
             let options = model.solver.steady_options();
@@ -42,11 +49,10 @@ impl Shown {
                 .advance(&mut model.system, samples.rest)
                 .map_err(RunError::from)?;
         }
-        let rest = [0, 1].map(|b| seen(&model, &markers[b]));
+        let rest = [0, 1].map(|b| pose(&model, &markers[b], None));
         Ok(Self {
             model,
-            markers,
-            rest,
+            points: Points { markers, rest },
         })
     }
 }
@@ -140,8 +146,7 @@ impl<'a> Run<'a> {
             self.go(samples, i)?;
             apart.extend(difference(
                 &self.shown.model,
-                &self.shown.markers,
-                &self.shown.rest,
+                &self.shown.points,
                 samples,
                 i,
             ));
@@ -161,7 +166,7 @@ impl<'a> Run<'a> {
         pairs: Vec<(f64, [Shown; 2])>,
     ) -> Result<(Vec<f64>, DMatrix<f64>), CompareError> {
         let runs = pairs.iter().flat_map(|(_, runs)| runs);
-        let seen: Vec<_> = runs.map(|run| (run.markers.clone(), run.rest)).collect();
+        let points: Vec<_> = runs.map(|run| run.points.clone()).collect();
         let columns = pairs.len();
         let models = pairs
             .into_iter()
@@ -173,15 +178,13 @@ impl<'a> Run<'a> {
             self.go(samples, i)?;
             apart.extend(difference(
                 &self.shown.model,
-                &self.shown.markers,
-                &self.shown.rest,
+                &self.shown.points,
                 samples,
                 i,
             ));
             let call = std::cell::Cell::new(0);
             let outputs = |model: &Model| {
-                let (markers, rest) = &seen[call.replace(call.get() + 1)];
-                difference(model, markers, rest, samples, i).to_vec()
+                difference(model, &points[call.replace(call.get() + 1)], samples, i).to_vec()
             };
             let slopes = sensitivities
                 .at(&mut self.solver, &mut self.shown.model.system, &outputs)
@@ -194,18 +197,13 @@ impl<'a> Run<'a> {
 }
 
 /// Simulated less recorded at one sample: positions \[m\], rotation vectors \[rad\], in the base frame.
-fn difference(
-    model: &Model,
-    markers: &[Marker; 2],
-    rest: &[Pose; 2],
-    samples: &Samples,
-    i: usize,
-) -> [f64; CHANNELS] {
+fn difference(model: &Model, points: &Points, samples: &Samples, i: usize) -> [f64; CHANNELS] {
+    let Points { markers, rest } = points;
     let recorded = [&samples.reference.platform, &samples.reference.ring];
     let sample = &samples.list[i];
     let mut all = [0.0; CHANNELS];
     for b in [0, 1] {
-        let now = seen(model, &markers[b]);
+        let now = pose(model, &markers[b], None);
         let shown = match markers[b].datum {
             Datum::Body => now,
             Datum::Rest => {
@@ -241,7 +239,7 @@ pub fn film(
     times: &[f64],
 ) -> Result<Vec<[Pose; 2]>, CompareError> {
     let mut model = Model::build(source, Some(inputs))?;
-    let markers = crate::compare::markers(&model)?;
+    let markers = markers(&model)?;
     let mut options = model.solver.steady_options();
     options.smallest_increment = options.smallest_increment.max(SMALLEST);
     let system = &mut model.system;
@@ -252,36 +250,21 @@ pub fn film(
         solver
             .advance(&mut model.system, *time)
             .map_err(RunError::from)?;
-        poses.push([0, 1].map(|b| seen(&model, &markers[b])));
+        poses.push([0, 1].map(|b| pose(&model, &markers[b], None)));
     }
     Ok(poses)
 }
 
-/// The pose of a marker as motion capture sees it.
-fn seen(model: &Model, marker: &Marker) -> Pose {
-    let (point, frame) = model
-        .marker_pose(marker)
-        .expect("the model was built with the marker's body");
-    let rotation = Rotation3::from_matrix_unchecked(frame.transpose());
-    let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
-    let Capture { turn, shift } = &model.capture;
-    let vector =
-        |v: &Option<crate::config::Vec3>| v.map_or(Vector3::zeros(), |v| Vector3::from(*v));
-    let turn = UnitQuaternion::from_scaled_axis(vector(turn));
-    Pose::from_parts((turn * point + vector(shift)).into(), turn * rotation)
-}
-
-/// Residuals in standard deviations, of several recordings one after the other; `floor` \[m, rad\] is what no model is
-/// asked to explain.
-pub fn whitened(differences: &[f64], samples: &Samples, floor: (f64, f64)) -> Vec<f64> {
+/// Residuals in standard deviations, of several recordings one after the other.
+pub fn whitened(differences: &[f64], samples: &Samples) -> Vec<f64> {
     let mut white = Vec::with_capacity(differences.len());
     for (sample, values) in samples.list.iter().zip(differences.chunks_exact(CHANNELS)) {
         for (c, value) in values.iter().enumerate() {
             let b = c / 6;
             let deviation = if c % 6 < 3 {
-                sample.position_deviation[b].hypot(floor.0)
+                sample.position_deviation[b].hypot(NUMERICS.0)
             } else {
-                sample.rotation_deviation[b].hypot(floor.1)
+                sample.rotation_deviation[b].hypot(NUMERICS.1)
             };
             white.push(value / deviation);
         }

@@ -38,8 +38,8 @@ pub fn locate(residuals: &[f64], data: &[Samples]) -> Location {
     let total: f64 = channels.iter().sum::<f64>().max(1e-300);
     let mut shares: Vec<_> = (0..CHANNELS)
         .map(|c| ChannelShare {
-            body: BODIES[c / 6],
-            channel: NAMES[c % 6],
+            body: BODIES[c / 6].to_owned(),
+            channel: NAMES[c % 6].to_owned(),
             share: channels[c] / total,
         })
         .collect();

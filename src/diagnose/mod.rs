@@ -7,8 +7,10 @@
 
 pub mod forward;
 mod locate;
+mod oracle;
 pub mod page;
 pub mod samples;
+mod scores;
 pub mod search;
 pub mod trial;
 pub mod verdict;
@@ -16,23 +18,21 @@ pub mod verdict;
 use crate::compare::CompareError;
 use crate::config::{Problems, Source};
 use crate::identify::{Effect, Parameter, Robot};
-use forward::{CHANNELS, differences, platform_rms, whitened};
+use forward::{CHANNELS, NUMERICS};
+pub use oracle::oracle;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
-use rand_pcg::rand_core::{Rng, SeedableRng};
 use samples::{Phase, Samples};
+use scores::Scores;
 use std::path::PathBuf;
 use trial::{Linear, Trial};
-use verdict::{Alternative, Diagnosis, Estimated, Experiment, Fitted, Floor, Kind, Named, Scored};
+use verdict::{Alternative, Diagnosis, Estimated, Experiment, Floor, Kind, Named};
 
-/// What no model is asked to explain, since meshes differ by as much: position [m], rotation [rad].
-const NUMERICS: (f64, f64) = (3e-5, 3e-4);
 /// Mean squared residual up to which there is nothing to explain.
 const SOUND: f64 = 1.5;
 /// Share of chi2 that the first effect must explain to be named, and each further one: what a mesh of another size does
 /// to a stressed robot is explained in part by many.
 const GAIN: [f64; 2] = [0.25, 0.5];
-/// Share by which chi2 of a single recording, trained on or held out, may grow when an effect is added.
-const WORSE: f64 = 0.05;
 /// Most effects that are named together.
 const MOST: usize = 3;
 /// Share of the mismatch beyond noise that the named effects must explain.
@@ -97,7 +97,6 @@ pub fn diagnose(
         own: &own,
         forms: Vec::new(),
         data: &train,
-        floor: NUMERICS,
         guides: &[],
     };
     let nominal: Vec<f64> = own.iter().map(|p| p.nominal).collect();
@@ -122,14 +121,16 @@ pub fn diagnose(
     let mut here = baseline.clone();
     let mut trial = empty.clone();
     let mut scores = before.clone();
-    let (mut named, mut used): (Vec<(usize, f64)>, Vec<usize>) = (Vec::new(), Vec::new());
-    let mut alternatives = Vec::new();
+    let mut named: Vec<(usize, f64)> = Vec::new();
+    // of the last effect that was named: others that do as well, and the probability of each
+    let (mut alternatives, mut probability) = (Vec::new(), 0.0);
     for round in 0..MOST {
         if here.chi2() / measured < SOUND {
             break;
         }
         let (_, guides) = trial.evaluate(&here.at).map_err(unfit)?;
         let share = |done: f64| told(0.1 + 0.85 * (round as f64 + done) / MOST as f64);
+        let used: Vec<usize> = named.iter().map(|(f, _)| forms[*f].effect).collect();
         let found = search::round(&trial, &here, &guides, &forms, &used, &share);
         let scale = found
             .first()
@@ -152,39 +153,32 @@ pub fn diagnose(
         if with.worse_than(&scores) {
             break;
         }
+        let mut rivals: Vec<(usize, f64)> = Vec::new();
         alternatives.clear();
-        let mut weights: Vec<(usize, f64)> = Vec::new();
         for (cost, candidate) in &ranked {
             let effect = forms[candidate.form].effect;
-            if !weights.iter().any(|(e, _)| *e == effect) {
-                weights.push((effect, (-(cost - best_cost) / 2.0).exp()));
-                let alike = cost - best_cost < ODDS
-                    || candidate.fit.chi2() < (1.0 + ALIKE) * best.fit.chi2();
-                alternatives.push((effect, alike));
+            if rivals.iter().any(|(e, _)| *e == effect) {
+                continue;
             }
+            let alike =
+                cost - best_cost < ODDS || candidate.fit.chi2() < (1.0 + ALIKE) * best.fit.chi2();
+            // those that can't be told apart are as likely
+            let weight = if alike {
+                alternatives.push(effect);
+                1.0
+            } else {
+                (-(cost - best_cost) / 2.0).exp()
+            };
+            rivals.push((effect, weight));
         }
-        let total: f64 = weights.iter().map(|(_, w)| w).sum();
-        let probability = |effect: usize| {
-            weights
-                .iter()
-                .find(|(e, _)| *e == effect)
-                .map_or(0.0, |(_, w)| w / total)
-        };
-        let chosen = forms[best.form].effect;
-        named.push((best.form, probability(chosen)));
-        used.push(chosen);
-        alternatives.retain(|(effect, alike)| *effect != chosen && *alike);
+        let total: f64 = rivals.iter().map(|(_, weight)| weight).sum();
+        // the best is the first of them
+        alternatives.remove(0);
+        probability = 1.0 / total;
+        named.push((best.form, probability));
         here = best.fit.clone();
         trial = added;
         scores = with;
-        // the last round's alternatives are told with their probabilities
-        told(0.1 + 0.85 * (round + 1) as f64 / MOST as f64);
-        if alternatives
-            .iter()
-            .any(|(e, _)| probability(*e) > probability(chosen))
-        {
-            break;
-        }
     }
     let augmented = trial.scenario(&here.at).map_err(unfit)?;
     let beyond = |chi2: f64| (chi2 - measured).max(0.0);
@@ -192,7 +186,6 @@ pub fn diagnose(
         all if all > 0.0 => 1.0 - beyond(here.chi2()) / all,
         _ => 1.0,
     };
-    let alternatives: Vec<usize> = alternatives.into_iter().map(|(e, _)| e).collect();
     let kind = kind(
         &baseline,
         measured,
@@ -211,11 +204,10 @@ pub fn diagnose(
         own.len(),
         (&before, &scores),
     );
-    let discriminates: Vec<&'static str> =
-        (named.last().map(|(f, _)| forms[*f].effect).into_iter())
-            .chain(alternatives.iter().copied())
-            .map(|e| effects[e].id())
-            .collect();
+    let discriminates: Vec<String> = (named.last().map(|(f, _)| forms[*f].effect).into_iter())
+        .chain(alternatives.iter().copied())
+        .map(|e| effects[e].id().to_owned())
+        .collect();
     let experiment = (kind == Kind::Class || kind == Kind::Several && !alternatives.is_empty())
         .then(|| Experiment {
             words: named
@@ -224,7 +216,6 @@ pub fn diagnose(
                 .to_owned(),
             discriminates: discriminates.clone(),
         });
-    let shares = 1.0 / (alternatives.len() + 1) as f64;
     let floor = floor(&train);
     let diagnosis = Diagnosis {
         verdict: kind,
@@ -232,8 +223,8 @@ pub fn diagnose(
         effects: effects_named,
         alternatives: (alternatives.iter())
             .map(|e| Alternative {
-                id: effects[*e].id(),
-                probability: shares,
+                id: effects[*e].id().to_owned(),
+                probability,
             })
             .collect(),
         experiment,
@@ -251,44 +242,6 @@ pub fn diagnose(
     };
     told(1.0);
     Ok((diagnosis, augmented))
-}
-
-/// Held-out position error \[mm\] of the scenario with given effects (identifier, form, values to begin with), fitted to
-/// the training recordings: what a diagnosis that knows the truth would reach.
-///
-/// # Errors
-/// As [`diagnose`], or if there is no such effect.
-pub fn oracle(
-    request: &Request<'_>,
-    known: &[(String, String, Vec<f64>)],
-) -> Result<f64, DiagnoseError> {
-    let own = Parameter::declared(request.source)?;
-    let (train, holdout) = read(request)?;
-    let robot = Robot::of(request.source)?;
-    let effects = <dyn Effect>::all();
-    let forms = search::forms(&effects, &robot);
-    let mut start: Vec<f64> = own.iter().map(|p| p.nominal).collect();
-    let mut trial = Trial {
-        source: request.source,
-        own: &own,
-        forms: Vec::new(),
-        data: &train,
-        floor: NUMERICS,
-        guides: &[],
-    };
-    for (id, name, values) in known {
-        let same = |f: &&search::Form| effects[f.effect].id() == id && f.variant.name == *name;
-        let form = forms.iter().find(same).ok_or_else(|| {
-            DiagnoseError::Unfit(format!("there is no effect `{id}` of the form `{name}`"))
-        })?;
-        trial.forms.push(&form.variant);
-        start.extend(values);
-    }
-    let fit = trial.fit(&start, 12).map_err(DiagnoseError::Unfit)?;
-    let scenario = trial.scenario(&fit.at).map_err(DiagnoseError::Unfit)?;
-    let scores = Scores::of(&scenario, &train, &holdout)?;
-    let squares = scores.holdout.iter().map(|s| s.rms.0.powi(2));
-    Ok((squares.sum::<f64>() / holdout.len() as f64).sqrt())
 }
 
 fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseError> {
@@ -334,10 +287,9 @@ fn chosen(ids: &[String]) -> Result<Vec<Box<dyn Effect>>, DiagnoseError> {
 /// Fits the scenario's own numbers from their nominal values and from one place in their ranges.
 fn calibrate(trial: &Trial<'_>, nominal: &[f64], seed: u64) -> Result<Linear, String> {
     let mut random = Pcg64Mcg::seed_from_u64(seed);
-    let mut uniform = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
     let elsewhere: Vec<f64> = (trial.own.iter().zip(nominal))
         .map(|(p, n)| {
-            let to = p.range.0 + uniform() * p.width();
+            let to = p.range.0 + random.random::<f64>() * p.width();
             n + 0.3 * (to - n)
         })
         .collect();
@@ -351,77 +303,6 @@ fn calibrate(trial: &Trial<'_>, nominal: &[f64], seed: u64) -> Result<Linear, St
 
 fn count(data: &[Samples]) -> f64 {
     data.iter().map(|s| s.list.len() * CHANNELS).sum::<usize>() as f64
-}
-
-/// How well a scenario does, recording by recording.
-#[derive(Clone)]
-struct Scores {
-    train: Vec<Score>,
-    holdout: Vec<Score>,
-}
-
-#[derive(Clone)]
-struct Score {
-    name: String,
-    rms: (f64, f64),
-    chi2: f64,
-}
-
-impl Scores {
-    fn of(source: &Source, train: &[Samples], holdout: &[Samples]) -> Result<Self, CompareError> {
-        let score = |samples: &Samples| -> Result<Score, CompareError> {
-            let apart = differences(source, samples)?;
-            let white = whitened(&apart, samples, NUMERICS);
-            Ok(Score {
-                name: samples.name.clone(),
-                rms: platform_rms(&apart, samples),
-                chi2: white.iter().map(|r| r * r).sum(),
-            })
-        };
-        let all = |data: &[Samples]| data.iter().map(score).collect::<Result<Vec<_>, _>>();
-        Ok(Self {
-            train: all(train)?,
-            holdout: all(holdout)?,
-        })
-    }
-
-    /// Whether a recording is done worse than before, or those held out together no better.
-    fn worse_than(&self, before: &Self) -> bool {
-        let pairs = || {
-            self.train
-                .iter()
-                .chain(&self.holdout)
-                .zip(before.train.iter().chain(&before.holdout))
-        };
-        let sum = |scores: &[Score]| scores.iter().map(|s| s.chi2).sum::<f64>();
-        pairs().any(|(now, then)| now.chi2 > (1.0 + WORSE) * then.chi2)
-            || sum(&self.holdout) > sum(&before.holdout)
-    }
-
-    fn fitted(&self, parameters: Vec<Estimated>, reduced_chi2: f64) -> Fitted {
-        let scored = |role: &'static str| {
-            move |s: &Score| Scored {
-                name: s.name.clone(),
-                role,
-                position_rmse_mm: s.rms.0,
-                rotation_rmse_mrad: s.rms.1,
-            }
-        };
-        let recordings = self
-            .train
-            .iter()
-            .map(scored("train"))
-            .chain(self.holdout.iter().map(scored("holdout")));
-        Fitted {
-            parameters,
-            recordings: recordings.collect(),
-            reduced_chi2,
-        }
-    }
-
-    fn train_mm(&self) -> f64 {
-        (self.train.iter().map(|s| s.rms.0.powi(2)).sum::<f64>() / self.train.len() as f64).sqrt()
-    }
 }
 
 fn kind(
@@ -487,9 +368,9 @@ fn name_all(
             which => format!("{} ({which})", effect.words()),
         };
         Named {
-            id: effect.id(),
+            id: effect.id().to_owned(),
             words,
-            equation: effect.equation(),
+            equation: effect.equation().to_owned(),
             hook: effect.hook(),
             parameters,
             probability: *probability,
@@ -552,7 +433,13 @@ fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
     train.iter().chain(holdout).map(line).collect()
 }
 
-fn sentence(kind: Kind, named: &[Named], explained: f64, floor: &Floor, class: &[&str]) -> String {
+fn sentence(
+    kind: Kind,
+    named: &[Named],
+    explained: f64,
+    floor: &Floor,
+    class: &[String],
+) -> String {
     let words: Vec<&str> = named.iter().map(|n| n.words.as_str()).collect();
     let share = 100.0 * explained;
     let all = words.join("; ");
@@ -580,6 +467,5 @@ fn sentence(kind: Kind, named: &[Named], explained: f64, floor: &Floor, class: &
         Kind::Unexplained => format!(
             "There is a mismatch that is not explained: the best that is known ({all}) accounts for {share:.0} % of it only."
         ),
-        Kind::Insufficient => "Too little data.".into(),
     }
 }

@@ -29,7 +29,7 @@ pub fn page(d: &Diagnosis, scenario: &str) -> String {
                         "<td><b>{}</b>: {}<br><code>{}</code></td><td>{:.2}</td>",
                         e.id,
                         escaped(&e.words),
-                        escaped(e.equation),
+                        escaped(&e.equation),
                         e.probability
                     ),
                     _ => "<td></td><td></td>".into(),
@@ -144,7 +144,6 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Class => "One of several.",
         Kind::Several => "Several effects.",
         Kind::Unexplained => "Not explained.",
-        Kind::Insufficient => "Too little data.",
     }
 }
 

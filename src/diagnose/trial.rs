@@ -17,8 +17,6 @@ pub struct Trial<'a> {
     pub forms: Vec<&'a Variant>,
     /// What it is fitted to.
     pub data: &'a [Samples],
-    /// What no model is asked to explain: position [m], rotation [rad].
-    pub floor: (f64, f64),
     /// States of another trial of the same samples, one guide a recording; empty if there are none.
     pub guides: &'a [Guide],
 }
@@ -122,7 +120,7 @@ impl<'a> Trial<'a> {
             let run = Run::new(&source, samples, self.guides.get(r));
             let run = run.and_then(|mut run| run.all(samples));
             let (apart, guide) = run.map_err(|e| e.to_string())?;
-            all.extend(whitened(&apart, samples, self.floor));
+            all.extend(whitened(&apart, samples));
             guides.push(guide);
         }
         all.extend(self.priors(at));
@@ -158,8 +156,8 @@ impl<'a> Trial<'a> {
             }
             let derived = run.derivatives(samples, pairs);
             let (apart, jacobian) = derived.map_err(|e| e.to_string())?;
-            residuals.extend(whitened(&apart, samples, self.floor));
-            let ones = whitened(&vec![1.0; apart.len()], samples, self.floor);
+            residuals.extend(whitened(&apart, samples));
+            let ones = whitened(&vec![1.0; apart.len()], samples);
             slopes.push(DMatrix::from_fn(apart.len(), columns.len(), |i, j| {
                 jacobian[(i, j)] * ones[i]
             }));

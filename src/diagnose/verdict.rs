@@ -1,10 +1,10 @@
 //! What a diagnosis says. Its JSON keys are stable.
 
 use crate::identify::Hooked;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The kinds of verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kind {
     /// Nothing above the floor.
@@ -19,12 +19,18 @@ pub enum Kind {
     Several,
     /// None of the effects that are known.
     Unexplained,
-    /// Too little data.
-    Insufficient,
+}
+
+impl Kind {
+    /// Its name in JSON.
+    #[must_use]
+    pub fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
 }
 
 /// A diagnosis.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Diagnosis {
     /// The verdict.
     pub verdict: Kind,
@@ -55,14 +61,14 @@ pub struct Diagnosis {
 }
 
 /// An effect that is named.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Named {
     /// Its identifier.
-    pub id: &'static str,
+    pub id: String,
     /// What it is.
     pub words: String,
     /// Its equation.
-    pub equation: &'static str,
+    pub equation: String,
     /// Which part of the model it belongs to.
     pub hook: Hooked,
     /// Its numbers.
@@ -74,7 +80,7 @@ pub struct Named {
 }
 
 /// A number and its interval.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Estimated {
     /// What it is.
     pub name: String,
@@ -87,25 +93,25 @@ pub struct Estimated {
 }
 
 /// Another effect that explains nearly as much.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Alternative {
     /// Its identifier.
-    pub id: &'static str,
+    pub id: String,
     /// Probability among the effects that were tried.
     pub probability: f64,
 }
 
 /// What to do next.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Experiment {
     /// What to do.
     pub words: String,
     /// The effects that it tells apart.
-    pub discriminates: Vec<&'static str>,
+    pub discriminates: Vec<String>,
 }
 
 /// Where simulation and recordings differ.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Location {
     /// Shares of the calibrated baseline's mismatch.
     pub channels: Vec<ChannelShare>,
@@ -118,18 +124,18 @@ pub struct Location {
 }
 
 /// Share of a channel.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ChannelShare {
     /// `platform` or `ring`.
-    pub body: &'static str,
+    pub body: String,
     /// `x`, `y`, `z`, `turn x`, ..
-    pub channel: &'static str,
+    pub channel: String,
     /// Share of the squared, whitened mismatch.
     pub share: f64,
 }
 
 /// A stretch of time.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Interval {
     /// The recording.
     pub recording: String,
@@ -138,7 +144,7 @@ pub struct Interval {
 }
 
 /// What can't be told from noise.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Floor {
     /// Of a position [mm].
     pub position_mm: f64,
@@ -147,7 +153,7 @@ pub struct Floor {
 }
 
 /// A fitted scenario.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Fitted {
     /// Its own numbers.
     pub parameters: Vec<Estimated>,
@@ -158,12 +164,12 @@ pub struct Fitted {
 }
 
 /// How well a scenario does on a recording.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Scored {
     /// The recording.
     pub name: String,
     /// `train` or `holdout`.
-    pub role: &'static str,
+    pub role: String,
     /// Root mean square of the platform's distance where it rests [mm].
     pub position_rmse_mm: f64,
     /// Root mean square of the platform's rotation where it rests [mrad].

@@ -95,11 +95,11 @@ impl Group {
         self.bodies.sweep(Pass::Loads);
     }
 
-    /// Lets laws remember the present state, `dt` \[s\] after the one before.
-    pub(crate) fn remember(&mut self, now: &Moment<'_>, dt: f64) {
+    /// Lets laws remember the present state.
+    pub(crate) fn remember(&mut self, now: &Moment<'_>) {
         for l in &self.laws {
             if l.memory.1 > 0 {
-                l.hook.remember(now, dt, &mut l.view(&mut self.bodies));
+                l.hook.remember(now, &mut l.view(&mut self.bodies));
             }
         }
     }

@@ -27,9 +27,8 @@ pub trait RodLaw: Send + Sync {
         0
     }
 
-    /// Brings what the law remembers up to date at a state that was reached, `dt` \[s\] after the one before. It is saved
-    /// and restored with the state.
-    fn remember(&self, _now: &Moment<'_>, _dt: f64, _rod: &mut LawView<'_>) {}
+    /// Brings what the law remembers up to date at a state that was reached. It is saved and restored with the state.
+    fn remember(&self, _now: &Moment<'_>, _rod: &mut LawView<'_>) {}
 
     /// What is wrong with the law on this body, in words.
     fn check(&self, _setting: &Setting<'_>) -> Result<(), String> {

@@ -46,7 +46,7 @@ impl Group {
     /// The rest of a step: rates, damping, boundary rates, and half a step of positions and frames again.
     fn after_joints(&mut self, inputs: &Inputs, time: f64, dt: f64) {
         let at = |time| Moment { time, inputs };
-        self.remember(&at(time + dt / 2.0), dt);
+        self.remember(&at(time + dt / 2.0));
         self.kick(&at(time + dt / 2.0), dt);
         self.sound = self.bodies.is_sound();
         // Poses stay sound where rates aren't, so that the cause can be looked for.

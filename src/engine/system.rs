@@ -256,15 +256,14 @@ impl System {
         }
     }
 
-    /// Lets rod laws remember the present state, reached `dt` \[s\] after the one before. Solvers do it for every state
-    /// that they accept.
-    pub(crate) fn remember(&mut self, dt: f64) {
+    /// Lets rod laws remember the present state. Solvers do it for every state that they accept.
+    pub(crate) fn remember(&mut self) {
         let now = Moment {
             time: self.time,
             inputs: &self.inputs,
         };
         for group in &mut self.groups {
-            group.remember(&now, dt);
+            group.remember(&now);
         }
     }
 

@@ -5,7 +5,7 @@ use auxetica_engine::scenario::{Scenario, Targets};
 use std::any::TypeId;
 
 /// Which part of a model an effect belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Hooked {
     /// The rods' law.
@@ -20,6 +20,14 @@ pub enum Hooked {
     Body,
     /// How the robot was recorded, not how it is.
     Recording,
+}
+
+impl Hooked {
+    /// Its name in JSON.
+    #[must_use]
+    pub fn name(self) -> String {
+        format!("{self:?}").to_lowercase()
+    }
 }
 
 /// A number of an effect.
@@ -144,8 +152,8 @@ pub struct Robot {
     pub lengths: Vec<f64>,
     /// Offsets of the markers \[m\].
     pub offsets: Vec<[f64; 3]>,
-    /// Number of rod laws.
-    pub laws: usize,
+    /// Which of its rod laws say how rods are handed.
+    pub handed_laws: Vec<usize>,
     /// Number of joint entries.
     pub joints: usize,
     /// Whether gravity acts already.
@@ -159,8 +167,14 @@ impl Robot {
     /// If the scenario can't be read.
     pub fn of(source: &Source) -> Result<Self, Problems> {
         let scenario: Scenario<'_> = source.parse()?;
-        let names = scenario.rods.iter().flat_map(|group| group.names());
-        let rods: Vec<String> = names.map(str::to_owned).collect();
+        let groups = scenario.rods.iter();
+        let (groups, rods): (Vec<String>, Vec<String>) = groups
+            .flat_map(|group| {
+                let name = |rod: &str| (group.name.clone(), rod.to_owned());
+                group.names().into_iter().map(name).collect::<Vec<_>>()
+            })
+            .unzip();
+        let mut handed_laws = Vec::new();
         let mut handed = vec![0.0; rods.len()];
         for (i, law) in scenario.laws.iter().enumerate() {
             let handedness = source.values(&format!("laws[{i}].apply.handedness"));
@@ -169,8 +183,10 @@ impl Robot {
                 Ok(["Left"]) => -1.0,
                 _ => continue,
             };
-            for (rod, handed) in rods.iter().zip(&mut handed) {
-                if law.on == Targets::All || law.on.names().contains(rod) {
+            handed_laws.push(i);
+            let named = |name: &String| law.on.names().contains(name);
+            for (r, handed) in handed.iter_mut().enumerate() {
+                if law.on == Targets::All || named(&rods[r]) || named(&groups[r]) {
                     *handed = sign;
                 }
             }
@@ -185,16 +201,10 @@ impl Robot {
                 .map(|c| c.name.clone())
                 .collect(),
             markers: scenario.markers.iter().map(|m| m.name.clone()).collect(),
-            laws: scenario.laws.len(),
+            handed_laws,
             joints: scenario.joints.len(),
             gravity: (scenario.forcing.iter()).any(|f| is_gravity(f.apply.get_ron())),
         })
-    }
-
-    /// The rods as a list for `on:`.
-    #[must_use]
-    pub fn rod_list(&self) -> String {
-        format!("{:?}", self.rods)
     }
 }
 

@@ -155,7 +155,7 @@ impl SteadySolver {
                 system.time = start_time;
                 return Err(NotSteady { time: to, reason });
             }
-            system.remember(to - from);
+            system.remember();
             if whole {
                 return Ok(report);
             }

@@ -182,7 +182,7 @@ impl Parameter {
             hold(system);
             system.evaluate();
             // what laws remember depends on the number, too
-            system.remember(0.0);
+            system.remember();
             outputs(model)
         };
         let (forth, back) = (values(more, self.step), values(less, -self.step));

@@ -1,0 +1,96 @@
+//! How well a scenario does on recordings, and whether it does worse than another.
+
+use super::forward::{differences, platform_rms, whitened};
+use super::samples::Samples;
+use super::verdict::{Estimated, Fitted, Scored};
+use crate::compare::CompareError;
+use crate::config::Source;
+
+/// Share by which chi2 of a single recording, trained on or held out, may grow when an effect is added.
+const WORSE: f64 = 0.05;
+
+/// How well a scenario does, recording by recording.
+#[derive(Clone)]
+pub(super) struct Scores {
+    pub(super) train: Vec<Score>,
+    pub(super) holdout: Vec<Score>,
+}
+
+#[derive(Clone)]
+pub(super) struct Score {
+    name: String,
+    /// Root mean squares of the platform: position [mm], rotation [mrad].
+    pub(super) rms: (f64, f64),
+    chi2: f64,
+}
+
+impl Scores {
+    pub(super) fn of(
+        source: &Source,
+        train: &[Samples],
+        holdout: &[Samples],
+    ) -> Result<Self, CompareError> {
+        let score = |samples: &Samples| -> Result<Score, CompareError> {
+            let apart = differences(source, samples)?;
+            let white = whitened(&apart, samples);
+            Ok(Score {
+                name: samples.name.clone(),
+                rms: platform_rms(&apart, samples),
+                chi2: white.iter().map(|r| r * r).sum(),
+            })
+        };
+        let all = |data: &[Samples]| data.iter().map(score).collect::<Result<Vec<_>, _>>();
+        Ok(Self {
+            train: all(train)?,
+            holdout: all(holdout)?,
+        })
+    }
+
+    /// Whether a recording is done worse than before, or those held out together no better.
+    pub(super) fn worse_than(&self, before: &Self) -> bool {
+        let pairs = || {
+            self.train
+                .iter()
+                .chain(&self.holdout)
+                .zip(before.train.iter().chain(&before.holdout))
+        };
+        let sum = |scores: &[Score]| scores.iter().map(|s| s.chi2).sum::<f64>();
+        pairs().any(|(now, then)| now.chi2 > (1.0 + WORSE) * then.chi2)
+            || sum(&self.holdout) > sum(&before.holdout)
+    }
+
+    pub(super) fn fitted(&self, parameters: Vec<Estimated>, reduced_chi2: f64) -> Fitted {
+        let scored = |role: &'static str| {
+            move |s: &Score| Scored {
+                name: s.name.clone(),
+                role: role.to_owned(),
+                position_rmse_mm: s.rms.0,
+                rotation_rmse_mrad: s.rms.1,
+            }
+        };
+        let recordings = self
+            .train
+            .iter()
+            .map(scored("train"))
+            .chain(self.holdout.iter().map(scored("holdout")));
+        Fitted {
+            parameters,
+            recordings: recordings.collect(),
+            reduced_chi2,
+        }
+    }
+
+    /// Root mean square of the position errors on training recordings [mm].
+    pub(super) fn train_mm(&self) -> f64 {
+        mean_mm(&self.train)
+    }
+
+    /// The same on those held out.
+    pub(super) fn held_out_mm(&self) -> f64 {
+        mean_mm(&self.holdout)
+    }
+}
+
+fn mean_mm(scores: &[Score]) -> f64 {
+    (scores.iter().map(|s| s.rms.0.powi(2)).sum::<f64>() / scores.len() as f64).sqrt()
+}
