@@ -250,8 +250,7 @@ impl Draw<'_> {
             let vary = random.random_range(-0.7_f64..0.7).exp();
             let value = if (q.typical - q.null).abs() < 1e-12 {
                 q.typical * vary
-            } else if q.typical * q.null > 0.0 && (q.typical / q.null).ln().abs() > 1.0 {
-                // stiffnesses and saturations, which are absent where they are large
+            } else if q.absent_where_large() {
                 q.typical / strength
             } else {
                 q.null + strength * (q.typical - q.null)

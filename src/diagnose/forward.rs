@@ -1,6 +1,6 @@
 //! From a scenario to the residuals of recordings.
 
-use super::samples::{Phase, Samples};
+use super::samples::{Phase, Sample, Samples};
 use crate::compare::{CompareError, markers, pose};
 use crate::config::Source;
 use crate::engine::scenario::{Datum, Marker};
@@ -155,15 +155,16 @@ impl<'a> Run<'a> {
         Ok((apart, states))
     }
 
-    /// Simulated less recorded, and derivatives by numbers of which `pairs` has the steps and the models with larger and
+    /// Whitened residuals, and derivatives by numbers of which `pairs` has the steps and the models with larger and
     /// smaller ones.
     ///
     /// # Errors
-    /// If a sample has no steady state, or a singular one.
+    /// If a sample has no steady state, or a singular one, or once the residuals' squares are more than `most`.
     pub fn derivatives(
         &mut self,
         samples: &Samples,
         pairs: Vec<(f64, [Shown; 2])>,
+        most: f64,
     ) -> Result<(Vec<f64>, DMatrix<f64>), CompareError> {
         let runs = pairs.iter().flat_map(|(_, runs)| runs);
         let points: Vec<_> = runs.map(|run| run.points.clone()).collect();
@@ -172,27 +173,35 @@ impl<'a> Run<'a> {
             .into_iter()
             .map(|(step, [a, b])| (step, [a.model, b.model]));
         let mut sensitivities = Sensitivities::between(models.collect());
-        let mut apart = Vec::new();
+        let mut residuals = Vec::new();
         let mut rows: Vec<f64> = Vec::new();
-        for i in 0..samples.list.len() {
+        let mut left = most;
+        for (i, sample) in samples.list.iter().enumerate() {
             self.go(samples, i)?;
-            apart.extend(difference(
-                &self.shown.model,
-                &self.shown.points,
-                samples,
-                i,
-            ));
+            let shown = &self.shown;
+            let white = sample.whiten(difference(&shown.model, &shown.points, samples, i));
+            left -= white.iter().map(|r| r * r).sum::<f64>();
+            if left < 0.0 {
+                return Err(CompareError::Unfit(format!(
+                    "up to t = {:.2} s it is worse than what was there before",
+                    sample.time
+                )));
+            }
+            residuals.extend(white);
             let call = std::cell::Cell::new(0);
             let outputs = |model: &Model| {
-                difference(model, &points[call.replace(call.get() + 1)], samples, i).to_vec()
+                let points = &points[call.replace(call.get() + 1)];
+                sample
+                    .whiten(difference(model, points, samples, i))
+                    .to_vec()
             };
             let slopes = sensitivities
                 .at(&mut self.solver, &mut self.shown.model.system, &outputs)
                 .map_err(RunError::from)?;
             rows.extend(slopes.transpose().iter());
         }
-        let rows = DMatrix::from_row_slice(apart.len(), columns, &rows);
-        Ok((apart, rows))
+        let rows = DMatrix::from_row_slice(residuals.len(), columns, &rows);
+        Ok((residuals, rows))
     }
 }
 
@@ -255,21 +264,26 @@ pub fn film(
     Ok(poses)
 }
 
-/// Residuals in standard deviations, of several recordings one after the other.
+/// Residuals of a recording in standard deviations.
 pub fn whitened(differences: &[f64], samples: &Samples) -> Vec<f64> {
-    let mut white = Vec::with_capacity(differences.len());
-    for (sample, values) in samples.list.iter().zip(differences.chunks_exact(CHANNELS)) {
-        for (c, value) in values.iter().enumerate() {
+    let each = samples.list.iter().zip(differences.as_chunks().0);
+    each.flat_map(|(sample, values)| sample.whiten(*values))
+        .collect()
+}
+
+impl Sample {
+    /// Residuals in standard deviations.
+    fn whiten(&self, mut values: [f64; CHANNELS]) -> [f64; CHANNELS] {
+        for (c, value) in values.iter_mut().enumerate() {
             let b = c / 6;
-            let deviation = if c % 6 < 3 {
-                sample.position_deviation[b].hypot(NUMERICS.0)
+            *value /= if c % 6 < 3 {
+                self.position_deviation[b].hypot(NUMERICS.0)
             } else {
-                sample.rotation_deviation[b].hypot(NUMERICS.1)
+                self.rotation_deviation[b].hypot(NUMERICS.1)
             };
-            white.push(value / deviation);
         }
+        values
     }
-    white
 }
 
 /// Root mean squares over settled samples of the platform's distance \[mm\] and rotation \[mrad\].

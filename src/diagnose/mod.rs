@@ -100,7 +100,7 @@ pub fn diagnose(
         guides: &[],
     };
     let nominal: Vec<f64> = own.iter().map(|p| p.nominal).collect();
-    let (_, guides) = empty.evaluate(&nominal).map_err(unfit)?;
+    let guides = empty.guides(&nominal).map_err(unfit)?;
     let guided = Trial {
         guides: &guides,
         ..empty.clone()
@@ -128,7 +128,7 @@ pub fn diagnose(
         if here.chi2() / measured < SOUND {
             break;
         }
-        let (_, guides) = trial.evaluate(&here.at).map_err(unfit)?;
+        let guides = trial.guides(&here.at).map_err(unfit)?;
         let share = |done: f64| told(0.1 + 0.85 * (round as f64 + done) / MOST as f64);
         let used: Vec<usize> = named.iter().map(|(f, _)| forms[*f].effect).collect();
         let found = search::round(&trial, &here, &guides, &forms, &used, &share);
@@ -146,8 +146,7 @@ pub fn diagnose(
         if best.fit.chi2() > (1.0 - GAIN[round.min(1)]) * here.chi2() {
             break;
         }
-        let mut added = trial.clone();
-        added.forms.push(&forms[best.form].variant);
+        let added = trial.with(&forms[best.form].variant);
         let scenario = added.scenario(&best.fit.at).map_err(unfit)?;
         let with = Scores::of(&scenario, &train, &holdout)?;
         if with.worse_than(&scores) {
@@ -293,7 +292,8 @@ fn calibrate(trial: &Trial<'_>, nominal: &[f64], seed: u64) -> Result<Linear, St
             n + 0.3 * (to - n)
         })
         .collect();
-    let (first, second) = rayon::join(|| trial.fit(nominal, 12), || trial.fit(&elsewhere, 12));
+    let fit = |from: &[f64]| Ok::<_, String>(trial.fit(trial.start(from)?, 0..from.len(), 12));
+    let (first, second) = rayon::join(|| fit(nominal), || fit(&elsewhere));
     let first = first?;
     Ok(match second {
         Ok(second) if second.chi2() < first.chi2() - 1e-6 * first.chi2() => second,

@@ -35,7 +35,9 @@ pub fn oracle(
         trial.forms.push(&form.variant);
         start.extend(values);
     }
-    let fit = trial.fit(&start, 12).map_err(DiagnoseError::Unfit)?;
+    let start = trial.start(&start).map_err(DiagnoseError::Unfit)?;
+    let all = 0..start.at.len();
+    let fit = trial.fit(start, all, 12);
     let scenario = trial.scenario(&fit.at).map_err(DiagnoseError::Unfit)?;
     let scores = Scores::of(&scenario, &train, &holdout)?;
     Ok(scores.held_out_mm())

@@ -1,9 +1,10 @@
 //! The search for effects: screen all in one linearised pass, fit the best, keep what is worth it, begin again.
 
 use super::forward::Guide;
-use super::trial::{Linear, Trial};
+use super::trial::{DAMPING, Linear, Trial};
 use crate::identify::{Effect, Robot, Variant};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// An effect in one of its forms.
 pub struct Form {
@@ -32,12 +33,18 @@ pub struct Candidate {
     pub fit: Linear,
 }
 
-/// How many forms are fitted in a round, of different effects.
-const FITTED: usize = 8;
-/// Steps after which forms whose chi2 is so many times the least are given up, and steps of the others from there.
-const FIRST_STEPS: usize = 3;
-const HOPELESS: f64 = 4.0;
-const STEPS: usize = 10;
+/// How many forms are fitted in a round, and how many of one effect.
+const FITTED: usize = 10;
+const OF_EFFECT: usize = 2;
+/// Times the least promised chi2 beyond which forms are not fitted, but so many are in any case.
+const POOR: f64 = 30.0;
+const AT_LEAST: usize = 6;
+/// Forms that are screened at once.
+const SCREENED: usize = 12;
+/// Steps of the fits before the worse are given up, and how many times the least chi2 is too much then.
+const HEATS: [(usize, f64); 3] = [(1, 12.0), (2, 5.0), (8, f64::INFINITY)];
+/// Times the present chi2 at which no fit begins.
+const FAR: f64 = 20.0;
 
 /// Fits the forms that promise most when they are added to `base`, the best first.
 pub fn round(
@@ -48,12 +55,11 @@ pub fn round(
     used: &[usize],
     told: &(dyn Fn(f64) + Sync),
 ) -> Vec<Candidate> {
-    let with = |form: &usize| {
-        let mut trial = base.clone();
-        trial.forms.push(&forms[*form].variant);
-        trial.guides = guides;
-        trial
+    let guided = Trial {
+        guides,
+        ..base.clone()
     };
+    let with = |form: usize| guided.with(&forms[form].variant);
     let open: Vec<usize> = (0..forms.len())
         .filter(|f| !used.contains(&forms[*f].effect))
         .collect();
@@ -62,87 +68,129 @@ pub fn round(
         let done = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
         told(from + (to - from) * done as f64 / all as f64);
     };
-    let mut promises: Vec<(f64, usize, Vec<f64>)> = open
-        .par_iter()
-        .filter_map(|form| {
-            let promise = promise(&with(form), here);
-            tick(open.len(), 0.0, 0.5);
-            promise.map(|(left, at)| (left, *form, at))
-        })
-        .collect();
-    promises.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    // the best two forms of each of the best effects
-    let mut chosen: Vec<(usize, Vec<f64>)> = Vec::new();
-    let of_effect = |chosen: &[(usize, Vec<f64>)], effect: usize| {
-        chosen
-            .iter()
-            .filter(|(f, _)| forms[*f].effect == effect)
-            .count()
-    };
-    for (_, form, at) in promises {
-        if chosen.len() < FITTED + 4 && of_effect(&chosen, forms[form].effect) < 2 {
-            chosen.push((form, at));
+    let chunks: Vec<&[usize]> = open.chunks(SCREENED).collect();
+    let screened = chunks.par_iter().flat_map(|chunk| {
+        let some = screen(&guided, here, forms, chunk);
+        tick(chunks.len(), 0.0, 0.3);
+        some
+    });
+    let mut promises: Vec<Promise> = screened.collect();
+    promises.sort_by(|a, b| a.left.total_cmp(&b.left).then(a.form.cmp(&b.form)));
+    // the best forms of each of the best effects
+    let mut chosen: Vec<Promise> = Vec::new();
+    for promise in promises {
+        let same = |p: &&Promise| forms[p.form].effect == forms[promise.form].effect;
+        let poor = promise.left > POOR * chosen.first().map_or(f64::INFINITY, |best| best.left);
+        if poor && chosen.len() >= AT_LEAST {
+            break;
+        }
+        if chosen.len() < FITTED && chosen.iter().filter(same).count() < OF_EFFECT {
+            chosen.push(promise);
         }
     }
     done.store(0, std::sync::atomic::Ordering::Relaxed);
-    let first: Vec<Candidate> = chosen
-        .par_iter()
-        .filter_map(|(form, at)| {
-            let trial = with(form);
-            // the linearised optimum may be far; the typical value is always a state that was found
-            let starts = [at.clone(), trial.typical(&here.at)].map(|start| {
-                let left = trial.evaluate(&start).map(|(r, _)| r.norm_squared());
-                (left.unwrap_or(f64::INFINITY), start)
-            });
-            let start = usize::from(starts[1].0 < starts[0].0);
-            let fit = trial.fit(&starts[start].1, FIRST_STEPS);
-            tick(chosen.len(), 0.5, 0.8);
-            let fit = fit.ok()?;
-            Some(Candidate { form: *form, fit })
+    let begun = chosen.par_iter().filter_map(|promise| {
+        let begun = begin(&with(promise.form), here, &promise.at);
+        tick(chosen.len(), 0.3, 0.5);
+        begun.map(|fit| Candidate {
+            form: promise.form,
+            fit,
         })
-        .collect();
-    let least = first
-        .iter()
-        .map(|c| c.fit.chi2())
-        .fold(f64::INFINITY, f64::min);
-    done.store(0, std::sync::atomic::Ordering::Relaxed);
-    let mut fitted: Vec<Candidate> = first
-        .into_par_iter()
-        .filter(|c| c.fit.chi2() < HOPELESS * least)
-        .map(|c| {
-            let fit = with(&c.form).fit(&c.fit.at, STEPS);
-            tick(chosen.len(), 0.8, 1.0);
-            Candidate {
-                fit: fit.unwrap_or(c.fit),
-                ..c
-            }
-        })
-        .collect();
-    fitted.sort_by(|a, b| {
-        a.fit
-            .chi2()
-            .total_cmp(&b.fit.chi2())
-            .then(a.form.cmp(&b.form))
     });
+    let mut fitted: Vec<Candidate> = begun.collect();
+    for (heat, (steps, hopeless)) in HEATS.into_iter().enumerate() {
+        done.store(0, std::sync::atomic::Ordering::Relaxed);
+        let all = fitted.len();
+        let fit = |candidate: Candidate| {
+            let trial = with(candidate.form);
+            // what other numbers do changes little at first
+            let fresh = match heat {
+                0 => here.at.len(),
+                _ => 0,
+            };
+            let fresh = fresh..candidate.fit.at.len();
+            let fit = trial.fit(candidate.fit, fresh, steps);
+            let from = 0.5 + heat as f64 / 6.0;
+            tick(all, from, from + 1.0 / 6.0);
+            Candidate { fit, ..candidate }
+        };
+        fitted = fitted.into_par_iter().map(fit).collect();
+        let chi2 = |c: &Candidate| c.fit.chi2();
+        fitted.sort_by(|a, b| chi2(a).total_cmp(&chi2(b)).then(a.form.cmp(&b.form)));
+        let least = fitted.first().map_or(0.0, chi2);
+        fitted.retain(|c| chi2(c) <= hopeless * least);
+    }
     fitted
 }
 
-/// What would be left of chi2 by the linearised model around the form's typical values, and at which values.
-fn promise(trial: &Trial<'_>, here: &Linear) -> Option<(f64, Vec<f64>)> {
-    let at = trial.typical(&here.at);
-    let (before, all) = (here.at.len(), at.len());
-    let new = trial.linear(&at, before..all).ok()?;
-    let mut jacobian = nalgebra::DMatrix::zeros(new.residuals.len(), all);
-    jacobian.columns_mut(0, before).copy_from(&here.jacobian);
-    jacobian
-        .columns_mut(before, all - before)
-        .copy_from(&new.jacobian);
-    let full = Linear {
-        at,
-        residuals: new.residuals,
-        jacobian,
+/// What a form promises: what would be left of chi2 by the linearised model, and at which values.
+struct Promise {
+    form: usize,
+    left: f64,
+    at: Vec<f64>,
+}
+
+/// Forms, linearised: how the present states would change to first order if a form had its typical values, and how that
+/// depends on them.
+fn screen(trial: &Trial<'_>, here: &Linear, forms: &[Form], which: &[usize]) -> Vec<Promise> {
+    let pairs = |form: usize| {
+        let added = trial.with(&forms[form].variant);
+        let typical = added.typical(&here.at);
+        let mut pairs = vec![(0.5, [added.scenario(&typical)?, trial.scenario(&here.at)?])];
+        for j in here.at.len()..typical.len() {
+            pairs.push(added.pair(&typical, j)?);
+        }
+        Ok((added, typical, pairs))
     };
-    let (change, left) = trial.step(&full, 1e-6);
-    let to = full.at.iter().zip(&change).map(|(a, c)| a + c);
-    Some((left, to.collect()))
+    let (mut each, mut all, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    for &form in which {
+        let Ok::<_, String>((added, typical, pairs)) = pairs(form) else {
+            continue;
+        };
+        places.push(all.len()..all.len() + pairs.len());
+        all.extend(pairs);
+        each.push((form, added, typical));
+    }
+    let base = trial.scenario(&here.at);
+    let Ok((residuals, slopes)) = base.and_then(|b| trial.slopes(&b, &all, f64::INFINITY)) else {
+        // one of them can't be built or has no state: the others can
+        return match which.split_at(which.len() / 2) {
+            ([], _) => vec![],
+            halves => [halves.0, halves.1]
+                .into_iter()
+                .flat_map(|half| screen(trial, here, forms, half))
+                .collect(),
+        };
+    };
+    let promise = |((form, added, at), place): ((usize, Trial<'_>, Vec<f64>), Range<usize>)| {
+        let columns = slopes.columns_range(place);
+        let mut full = here.extended(at, &residuals);
+        let (before, measured) = (here.at.len(), residuals.len());
+        let mut rows = full.residuals.rows_mut(0, measured);
+        rows += columns.column(0);
+        let new = columns.ncols() - 1;
+        (full.jacobian.view_mut((0, before), (measured, new))).copy_from(&columns.columns(1, new));
+        let (at, left) = added.step(&full, DAMPING);
+        left.is_finite().then_some(Promise { form, left, at })
+    };
+    each.into_iter().zip(places).filter_map(promise).collect()
+}
+
+/// Begins at the linearised optimum, or at the typical values, which may be better where the optimum is far.
+fn begin(trial: &Trial<'_>, here: &Linear, promised: &[f64]) -> Option<Linear> {
+    let chi2 = here.chi2();
+    let linear = |at: &[f64]| {
+        trial
+            .linear(at, here.at.len()..at.len(), &here.jacobian, FAR * chi2)
+            .ok()
+    };
+    let first = linear(promised);
+    match &first {
+        Some(there) if there.chi2() < chi2 => first,
+        _ => {
+            let second = linear(&trial.typical(&here.at));
+            let starts = first.into_iter().chain(second);
+            starts.min_by(|a, b| a.chi2().total_cmp(&b.chi2()))
+        }
+    }
 }

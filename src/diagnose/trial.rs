@@ -1,10 +1,13 @@
 //! A scenario with effects, fitted to recordings by Gauss's and Newton's method.
 
-use super::forward::{Guide, Run, Shown, whitened};
+use super::forward::{Guide, Run, Shown};
 use super::samples::Samples;
+use crate::compare::CompareError;
 use crate::config::Source;
 use crate::identify::{Parameter, Variant};
 use nalgebra::{DMatrix, DVector};
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// A model under trial: a scenario, its own uncertain numbers, and forms of effects with theirs.
 #[derive(Clone)]
@@ -37,12 +40,46 @@ impl Linear {
     pub fn chi2(&self) -> f64 {
         self.residuals.norm_squared()
     }
+
+    /// The same with further values, which change nothing, and other residuals `measured`.
+    pub fn extended(&self, at: Vec<f64>, measured: &[f64]) -> Self {
+        let mut residuals = self.residuals.clone();
+        residuals
+            .rows_mut(0, measured.len())
+            .copy_from_slice(measured);
+        let more = at.len() - self.at.len();
+        let jacobian = self.jacobian.clone();
+        Self {
+            at,
+            residuals,
+            jacobian: jacobian.resize_horizontally(self.jacobian.ncols() + more, 0.0),
+        }
+    }
+}
+
+/// A value as the search counts it: its inverse if the effect is absent where the value is large, since the robot
+/// depends on that more evenly.
+struct Coordinate {
+    inverse: bool,
+    at: f64,
+    /// Change of the value with the coordinate.
+    slope: f64,
+    /// A size that matters.
+    scale: f64,
+    range: (f64, f64),
 }
 
 /// Least damping of the steps.
-const DAMPING: f64 = 1e-6;
+pub const DAMPING: f64 = 1e-6;
 
 impl<'a> Trial<'a> {
+    /// The same with another form.
+    pub fn with(&self, form: &'a Variant) -> Self {
+        let mut with = self.clone();
+        with.forms.push(form);
+        with
+    }
+
     /// The scenario at some values: its own numbers, then those of each form.
     ///
     /// # Errors
@@ -88,20 +125,42 @@ impl<'a> Trial<'a> {
             .expect("there is a value for each quantity")
     }
 
-    /// A size of value `j` that matters.
-    fn scale(&self, j: usize) -> f64 {
-        match j.checked_sub(self.own.len()) {
+    /// How the search counts value `j`, which is `value` now.
+    fn coordinate(&self, j: usize, value: f64) -> Coordinate {
+        let (least, most) = self.range(j);
+        let size = match j.checked_sub(self.own.len()) {
             None => 0.1 * self.own[j].width(),
             Some(k) => {
                 let q = self.quantity(k);
-                let size = (q.typical - q.null).abs().max(0.1 * q.typical.abs());
-                if size > 0.0 {
-                    size
-                } else {
-                    0.05 * (q.range.1 - q.range.0)
+                if q.absent_where_large() {
+                    return Coordinate {
+                        inverse: true,
+                        at: 1.0 / value,
+                        slope: -value * value,
+                        scale: 1.0 / q.typical - 1.0 / q.null,
+                        range: (1.0 / most, 1.0 / least),
+                    };
                 }
+                (q.typical - q.null).abs().max(0.1 * q.typical.abs())
             }
+        };
+        Coordinate {
+            inverse: false,
+            at: value,
+            slope: 1.0,
+            scale: if size > 0.0 {
+                size
+            } else {
+                0.05 * (most - least)
+            },
+            range: (least, most),
         }
+    }
+
+    fn coordinates(&self, at: &[f64]) -> Vec<Coordinate> {
+        (at.iter().enumerate())
+            .map(|(j, value)| self.coordinate(j, *value))
+            .collect()
     }
 
     fn priors(&self, at: &[f64]) -> Vec<f64> {
@@ -109,73 +168,48 @@ impl<'a> Trial<'a> {
         self.own.iter().zip(at).filter_map(prior).collect()
     }
 
-    /// Whitened residuals, priors last.
+    /// States of all samples.
     ///
     /// # Errors
     /// In words, if a sample has no steady state.
-    pub fn evaluate(&self, at: &[f64]) -> Result<(DVector<f64>, Vec<Guide>), String> {
+    pub fn guides(&self, at: &[f64]) -> Result<Vec<Guide>, String> {
         let source = self.scenario(at)?;
-        let (mut all, mut guides) = (Vec::new(), Vec::new());
-        for (r, samples) in self.data.iter().enumerate() {
-            let run = Run::new(&source, samples, self.guides.get(r));
-            let run = run.and_then(|mut run| run.all(samples));
-            let (apart, guide) = run.map_err(|e| e.to_string())?;
-            all.extend(whitened(&apart, samples));
-            guides.push(guide);
-        }
-        all.extend(self.priors(at));
-        Ok((DVector::from_vec(all), guides))
+        let of_recording = |(r, samples): (usize, &Samples)| {
+            Ok(Run::new(&source, samples, self.guides.get(r))?
+                .all(samples)?
+                .1)
+        };
+        let each = self.data.par_iter().enumerate().map(of_recording);
+        each.collect::<Result<_, CompareError>>()
+            .map_err(|e| e.to_string())
     }
 
-    /// Residuals and derivatives by the values `columns`.
+    /// Residuals and derivatives by the values `fresh`; those by others are as in `known`, which has a column for each
+    /// value.
     ///
     /// # Errors
-    /// In words, if a sample has no steady state or a singular one.
-    pub fn linear(&self, at: &[f64], columns: std::ops::Range<usize>) -> Result<Linear, String> {
+    /// In words, if a sample has no steady state or a singular one, or if chi2 is more than `most`.
+    pub fn linear(
+        &self,
+        at: &[f64],
+        fresh: Range<usize>,
+        known: &DMatrix<f64>,
+        most: f64,
+    ) -> Result<Linear, String> {
         let source = self.scenario(at)?;
-        let moved = |j: usize, step: f64| {
-            let mut there = at.to_vec();
-            there[j] += step;
-            self.scenario(&there)
-        };
-        let steps: Vec<f64> = columns.clone().map(|j| 1e-3 * self.scale(j)).collect();
-        let (mut residuals, mut slopes) = (Vec::new(), Vec::new());
-        for (r, samples) in self.data.iter().enumerate() {
-            let run = Run::new(&source, samples, self.guides.get(r));
-            let mut run = run.map_err(|e| e.to_string())?;
-            let mut pairs = Vec::new();
-            for (j, step) in columns.clone().zip(&steps) {
-                // at the end of its range a value goes one way only
-                let (least, most) = self.range(j);
-                let up = if at[j] + step <= most { *step } else { 0.0 };
-                let down = if at[j] - step >= least { *step } else { 0.0 };
-                let shown =
-                    |step: f64| Shown::new(&moved(j, step)?, samples).map_err(|e| e.to_string());
-                let runs = [shown(up)?, shown(-down)?];
-                pairs.push(((up + down) / 2.0, runs));
-            }
-            let derived = run.derivatives(samples, pairs);
-            let (apart, jacobian) = derived.map_err(|e| e.to_string())?;
-            residuals.extend(whitened(&apart, samples));
-            let ones = whitened(&vec![1.0; apart.len()], samples);
-            slopes.push(DMatrix::from_fn(apart.len(), columns.len(), |i, j| {
-                jacobian[(i, j)] * ones[i]
-            }));
-        }
+        let pairs = fresh.clone().map(|j| self.pair(at, j));
+        let pairs = pairs.collect::<Result<Vec<_>, String>>()?;
+        let (mut residuals, slopes) = self.slopes(&source, &pairs, most)?;
         let measured = residuals.len();
         residuals.extend(self.priors(at));
-        let mut jacobian = DMatrix::zeros(residuals.len(), columns.len());
-        let mut row = 0;
-        for block in slopes {
-            jacobian.rows_mut(row, block.nrows()).copy_from(&block);
-            row += block.nrows();
-        }
-        row = measured;
+        let mut jacobian = known.clone().resize(residuals.len(), at.len(), 0.0);
+        jacobian
+            .view_mut((0, fresh.start), slopes.shape())
+            .copy_from(&slopes);
+        let mut row = measured;
         for (j, p) in self.own.iter().enumerate() {
             if let Some((_, sd)) = p.prior {
-                if columns.contains(&j) {
-                    jacobian[(row, j - columns.start)] = 1.0 / sd;
-                }
+                jacobian[(row, j)] = 1.0 / sd;
                 row += 1;
             }
         }
@@ -186,12 +220,68 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// The change of the values that makes the linearised residuals least, within the ranges, and what is left then.
+    /// A small step of value `j`, and the scenarios in which it is larger and smaller by that.
+    ///
+    /// # Errors
+    /// In words, if the scenario has no place for them.
+    pub fn pair(&self, at: &[f64], j: usize) -> Result<(f64, [Source; 2]), String> {
+        let moved = |step: f64| {
+            let mut there = at.to_vec();
+            there[j] += step;
+            self.scenario(&there)
+        };
+        let coordinate = self.coordinate(j, at[j]);
+        let step = 1e-3 * (coordinate.scale * coordinate.slope).abs();
+        // at the end of its range a value goes one way only
+        let (least, most) = self.range(j);
+        let up = if at[j] + step <= most { step } else { 0.0 };
+        let down = if at[j] - step >= least { step } else { 0.0 };
+        Ok(((up + down) / 2.0, [moved(up)?, moved(-down)?]))
+    }
+
+    /// Residuals of a scenario, priors left out, and derivatives by numbers of which `pairs` has the steps and the
+    /// scenarios with larger and smaller ones.
+    ///
+    /// # Errors
+    /// In words, if a sample has no steady state or a singular one, or if chi2 of a recording is more than `most`.
+    pub fn slopes(
+        &self,
+        source: &Source,
+        pairs: &[(f64, [Source; 2])],
+        most: f64,
+    ) -> Result<(Vec<f64>, DMatrix<f64>), String> {
+        let of_recording = |(r, samples): (usize, &Samples)| {
+            let mut run = Run::new(source, samples, self.guides.get(r))?;
+            let shown = |(step, [a, b]): &(f64, [Source; 2])| {
+                Ok((*step, [Shown::new(a, samples)?, Shown::new(b, samples)?]))
+            };
+            let shown = pairs.iter().map(shown);
+            let shown = shown.collect::<Result<_, CompareError>>()?;
+            run.derivatives(samples, shown, most)
+        };
+        let each = self.data.par_iter().enumerate().map(of_recording);
+        let each = each
+            .collect::<Result<Vec<_>, CompareError>>()
+            .map_err(|e| e.to_string())?;
+        let residuals: Vec<f64> = each.iter().flat_map(|(r, _)| r.iter().copied()).collect();
+        if residuals.iter().map(|r| r * r).sum::<f64>() > most {
+            return Err("it is worse than what was there before".into());
+        }
+        let mut slopes = DMatrix::zeros(residuals.len(), pairs.len());
+        let mut row = 0;
+        for (_, block) in &each {
+            slopes.rows_mut(row, block.nrows()).copy_from(block);
+            row += block.nrows();
+        }
+        Ok((residuals, slopes))
+    }
+
+    /// The values that make the linearised residuals least, within the ranges, and what is left of chi2 then.
     pub fn step(&self, linear: &Linear, damping: f64) -> (Vec<f64>, f64) {
         let n = linear.at.len();
-        let scales: Vec<f64> = (0..n).map(|j| self.scale(j)).collect();
+        let along = self.coordinates(&linear.at);
         let scaled = DMatrix::from_fn(linear.residuals.len(), n, |i, j| {
-            linear.jacobian[(i, j)] * scales[j]
+            linear.jacobian[(i, j)] * along[j].slope * along[j].scale
         });
         let (normal, slope) = (scaled.tr_mul(&scaled), scaled.tr_mul(&linear.residuals));
         let mut damped = normal.clone();
@@ -199,21 +289,25 @@ impl<'a> Trial<'a> {
         for j in 0..n {
             damped[(j, j)] += damping * normal[(j, j)] + 1e-12 * largest;
         }
-        let room = |j: usize| {
-            let (least, most) = self.range(j);
-            let to = |end: f64| (end - linear.at[j]) / scales[j];
-            (to(least).min(0.0), to(most).max(0.0))
+        let room = |c: &Coordinate| {
+            let to = |end: f64| (end - c.at) / c.scale;
+            (to(c.range.0).min(0.0), to(c.range.1).max(0.0))
         };
-        let change = bounded(&damped, &slope, &(0..n).map(room).collect::<Vec<_>>());
+        let change = bounded(&damped, &slope, &along.iter().map(room).collect::<Vec<_>>());
         let left = linear.chi2() + 2.0 * slope.dot(&change) + change.dot(&(&normal * &change));
-        let change = change.iter().zip(&scales).map(|(c, s)| c * s).collect();
-        (change, left.max(0.0))
+        let moved = |(c, change): (&Coordinate, &f64)| {
+            let to = (c.at + change * c.scale).clamp(c.range.0, c.range.1);
+            if c.inverse { 1.0 / to } else { to }
+        };
+        let to = along.iter().zip(&change).map(moved).collect();
+        (to, if left < 0.0 { 0.0 } else { left })
     }
 
     /// Covariance of the values for residuals of unit variance.
     pub fn covariance(&self, fit: &Linear) -> DMatrix<f64> {
         let n = fit.at.len();
-        let scales: Vec<f64> = (0..n).map(|j| self.scale(j)).collect();
+        let along = self.coordinates(&fit.at);
+        let scales: Vec<f64> = along.iter().map(|c| c.slope * c.scale).collect();
         let scaled = DMatrix::from_fn(fit.residuals.len(), n, |i, j| {
             fit.jacobian[(i, j)] * scales[j]
         });
@@ -225,39 +319,38 @@ impl<'a> Trial<'a> {
         DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] * scales[i] * scales[j])
     }
 
-    /// Fits all values from `start`, in at most `iterations` steps.
+    /// Residuals and all derivatives.
     ///
     /// # Errors
-    /// In words, if there is no steady state at the start.
-    pub fn fit(&self, start: &[f64], iterations: usize) -> Result<Linear, String> {
-        let n = start.len();
-        let mut here = self.linear(start, 0..n)?;
+    /// In words, if a sample has no steady state or a singular one.
+    pub fn start(&self, at: &[f64]) -> Result<Linear, String> {
+        self.linear(at, 0..at.len(), &DMatrix::zeros(0, 0), f64::INFINITY)
+    }
+
+    /// Fits all values from `here`, in at most `iterations` steps, after each of which derivatives by `fresh` are
+    /// computed again; others stay.
+    pub fn fit(&self, mut here: Linear, fresh: Range<usize>, iterations: usize) -> Linear {
         let mut damping = DAMPING;
         for _ in 0..iterations {
             let mut better = None;
             for _ in 0..6 {
-                let (change, promised) = self.step(&here, damping);
+                let (there, promised) = self.step(&here, damping);
                 if here.chi2() - promised < 0.2 + 1e-5 * here.chi2() {
                     break;
                 }
-                let there: Vec<f64> = here.at.iter().zip(&change).map(|(a, c)| a + c).collect();
-                match self.evaluate(&there) {
-                    Ok((r, _)) if r.norm_squared() < here.chi2() => {
-                        better = Some(there);
+                match self.linear(&there, fresh.clone(), &here.jacobian, here.chi2()) {
+                    Ok(next) if next.chi2() < here.chi2() => {
+                        better = Some(next);
                         break;
                     }
                     _ => damping = (damping * 30.0).max(1e-3),
                 }
             }
-            let Some(there) = better else { break };
-            // where states are barely found, what was reached stands
-            let Ok(next) = self.linear(&there, 0..n) else {
-                break;
-            };
+            let Some(next) = better else { break };
             here = next;
             damping = (damping / 30.0).max(DAMPING);
         }
-        Ok(here)
+        here
     }
 }
 

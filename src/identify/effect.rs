@@ -45,6 +45,14 @@ pub struct Quantity {
     pub range: (f64, f64),
 }
 
+impl Quantity {
+    /// Whether the effect fades as the number grows, as with a stiffness that gives way.
+    #[must_use]
+    pub fn absent_where_large(&self) -> bool {
+        self.typical > 0.0 && self.null / self.typical > 2.0
+    }
+}
+
 /// One form of an effect: its numbers, and the changes of the scenario in which `{0}`, `{1}` .. stand for them.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Variant {
