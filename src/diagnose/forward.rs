@@ -14,9 +14,9 @@ pub const CHANNELS: usize = 12;
 /// What no model is asked to explain, since meshes differ by as much: position [m], rotation [rad].
 pub const NUMERICS: (f64, f64) = (3e-5, 3e-4);
 /// Newton iterations a sample may take on average; a model that takes more is no candidate, since its search never ends.
-const ITERATIONS: usize = 40;
+const ITERATIONS: usize = 30;
 /// Iterations that a failure is taken for.
-const FAILURE: usize = 300;
+const FAILURE: usize = 150;
 /// Smallest share of the way from one sample to the next that is solved at once, for the same reason.
 const SMALLEST: f64 = 1.0 / 8.0;
 /// A scenario's model under the motor angles of a recording, and its markers.

@@ -4,6 +4,7 @@ use super::scores::Scores;
 use super::trial::Trial;
 use super::{DiagnoseError, Request, read, search};
 use crate::identify::{Effect, Parameter, Robot};
+use std::sync::Arc;
 
 /// Held-out position error \[mm\] of the scenario with given effects (identifier, form, values to begin with), fitted to
 /// the training recordings: what a diagnosis that knows the truth would reach.
@@ -26,6 +27,7 @@ pub fn oracle(
         forms: Vec::new(),
         data: &train,
         guides: &[],
+        shared: Arc::default(),
     };
     for (id, name, values) in known {
         let same = |f: &&search::Form| effects[f.effect].id() == id && f.variant.name == *name;

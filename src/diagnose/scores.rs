@@ -12,15 +12,15 @@ const WORSE: f64 = 0.05;
 /// How well a scenario does, recording by recording.
 #[derive(Clone)]
 pub(super) struct Scores {
-    pub(super) train: Vec<Score>,
-    pub(super) holdout: Vec<Score>,
+    train: Vec<Score>,
+    holdout: Vec<Score>,
 }
 
 #[derive(Clone)]
-pub(super) struct Score {
+struct Score {
     name: String,
     /// Root mean squares of the platform: position [mm], rotation [mrad].
-    pub(super) rms: (f64, f64),
+    rms: (f64, f64),
     chi2: f64,
 }
 
@@ -78,6 +78,11 @@ impl Scores {
             recordings: recordings.collect(),
             reduced_chi2,
         }
+    }
+
+    /// The largest root mean square of the position errors on a training recording [mm].
+    pub(super) fn worst_mm(&self) -> f64 {
+        self.train.iter().map(|s| s.rms.0).fold(0.0, f64::max)
     }
 
     /// Root mean square of the position errors on training recordings [mm].

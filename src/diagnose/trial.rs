@@ -2,12 +2,14 @@
 
 use super::forward::{Guide, Run, Shown};
 use super::samples::Samples;
+use super::shared::Shared;
 use crate::compare::CompareError;
 use crate::config::Source;
 use crate::identify::{Parameter, Variant};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A model under trial: a scenario, its own uncertain numbers, and forms of effects with theirs.
 #[derive(Clone)]
@@ -22,6 +24,8 @@ pub struct Trial<'a> {
     pub data: &'a [Samples],
     /// States of another trial of the same samples, one guide a recording; empty if there are none.
     pub guides: &'a [Guide],
+    /// Errors that samples share; residuals and derivatives are whitened of them.
+    pub shared: Arc<Shared>,
 }
 
 /// Residuals and their derivatives at some values.
@@ -69,6 +73,8 @@ struct Coordinate {
     range: (f64, f64),
 }
 
+/// Times chi2 that squared residuals are let grow to in a step, before shared errors are taken out.
+const MUCH: f64 = 4.0;
 /// Least damping of the steps.
 pub const DAMPING: f64 = 1e-6;
 
@@ -188,7 +194,8 @@ impl<'a> Trial<'a> {
     /// value.
     ///
     /// # Errors
-    /// In words, if a sample has no steady state or a singular one, or if chi2 is more than `most`.
+    /// In words, if a sample has no steady state or a singular one, or if it has residuals beyond `most`, as
+    /// [`Self::slopes`] says.
     pub fn linear(
         &self,
         at: &[f64],
@@ -243,7 +250,8 @@ impl<'a> Trial<'a> {
     /// scenarios with larger and smaller ones.
     ///
     /// # Errors
-    /// In words, if a sample has no steady state or a singular one, or if chi2 of a recording is more than `most`.
+    /// In words, if a sample has no steady state or a singular one, or if the squared residuals of a recording are more than
+    /// `most` before shared errors are taken out.
     pub fn slopes(
         &self,
         source: &Source,
@@ -263,17 +271,18 @@ impl<'a> Trial<'a> {
         let each = each
             .collect::<Result<Vec<_>, CompareError>>()
             .map_err(|e| e.to_string())?;
-        let residuals: Vec<f64> = each.iter().flat_map(|(r, _)| r.iter().copied()).collect();
-        if residuals.iter().map(|r| r * r).sum::<f64>() > most {
-            return Err("it is worse than what was there before".into());
-        }
-        let mut slopes = DMatrix::zeros(residuals.len(), pairs.len());
+        let rows = each.iter().map(|(r, _)| r.len()).sum();
+        let mut all = DMatrix::zeros(rows, 1 + pairs.len());
         let mut row = 0;
-        for (_, block) in &each {
-            slopes.rows_mut(row, block.nrows()).copy_from(block);
-            row += block.nrows();
+        for (residuals, slopes) in &each {
+            let mut block = all.rows_mut(row, residuals.len());
+            block.column_mut(0).copy_from_slice(residuals);
+            block.columns_mut(1, pairs.len()).copy_from(slopes);
+            row += residuals.len();
         }
-        Ok((residuals, slopes))
+        self.shared.whiten(&mut all);
+        let residuals = all.column(0).as_slice().to_vec();
+        Ok((residuals, all.remove_column(0)))
     }
 
     /// The values that make the linearised residuals least, within the ranges, and what is left of chi2 then.
@@ -331,6 +340,8 @@ impl<'a> Trial<'a> {
     /// computed again; others stay.
     pub fn fit(&self, mut here: Linear, fresh: Range<usize>, iterations: usize) -> Linear {
         let mut damping = DAMPING;
+        // beyond this it isn't better, whatever samples share
+        let mut most = MUCH * here.chi2();
         for _ in 0..iterations {
             let mut better = None;
             for _ in 0..6 {
@@ -338,7 +349,7 @@ impl<'a> Trial<'a> {
                 if here.chi2() - promised < 0.2 + 1e-5 * here.chi2() {
                     break;
                 }
-                match self.linear(&there, fresh.clone(), &here.jacobian, here.chi2()) {
+                match self.linear(&there, fresh.clone(), &here.jacobian, most) {
                     Ok(next) if next.chi2() < here.chi2() => {
                         better = Some(next);
                         break;
@@ -348,6 +359,7 @@ impl<'a> Trial<'a> {
             }
             let Some(next) = better else { break };
             here = next;
+            most = most.min(MUCH * here.chi2());
             damping = (damping / 30.0).max(DAMPING);
         }
         here

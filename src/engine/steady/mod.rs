@@ -173,6 +173,7 @@ impl SteadySolver {
         system.time = time;
         self.find_imbalance(system, report);
         let path = Path::new(system, target, self.loads.clone(), &self.unknowns);
+        let smallest = self.options.smallest_increment;
         let (mut done, mut increment, mut limit) = (0.0, 1.0_f64, 1.0_f64);
         while done < 1.0 {
             let good = Poses::of(system);
@@ -188,14 +189,15 @@ impl SteadySolver {
                     report.increments += 1;
                     done = to;
                     limit = limit.max(2.0 * increment);
-                    increment *= (GOOD / trial.ratio).clamp(0.5, FASTEST);
+                    // never less than what is given up at, or the end is never reached
+                    let factor = (GOOD / trial.ratio).clamp(0.5, FASTEST);
+                    increment = (increment * factor).max(smallest);
                 }
                 Err(reason) => {
                     good.set(system);
                     self.moved = None;
                     // as small as is harmless, since it may stand at a law's kink; it grows fast
                     let harmless = HARMLESS / 2.0 / trial.first;
-                    let smallest = self.options.smallest_increment;
                     limit = increment / 2.0;
                     if limit < smallest {
                         return Err(self.unheld(system).unwrap_or(reason));

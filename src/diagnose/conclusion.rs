@@ -1,0 +1,230 @@
+//! From fitted models to what a diagnosis says.
+
+use super::SOUND;
+use super::forward::NUMERICS;
+use super::locate;
+use super::samples::{Phase, Sample, Samples};
+use super::search::Form;
+use super::standing::{Standing, count};
+use super::verdict::{Alternative, Diagnosis, Estimated, Experiment, Floor, Kind, Named};
+use crate::identify::{Effect, Hooked, Parameter};
+
+/// Share of the mismatch beyond noise that the named effects must explain.
+const EXPLAINED: f64 = 0.6;
+/// Deviations from its prior beyond which a calibrated number is told.
+const FAR: f64 = 2.5;
+
+/// What a diagnosis says that began at `baseline` and ended at `last`.
+pub(super) fn conclude(
+    baseline: &Standing<'_>,
+    last: &Standing<'_>,
+    forms: &[Form],
+    effects: &[Box<dyn Effect>],
+    holdout: &[Samples],
+) -> Diagnosis {
+    let (train, own) = (baseline.trial.data, baseline.trial.own);
+    let explained = match baseline.beyond_noise() {
+        all if all > 0.0 => 1.0 - last.beyond_noise() / all,
+        _ => 1.0,
+    };
+    let effect = |form: usize| &effects[forms[form].effect];
+    let kind = kind(baseline, last, explained, |form| effect(form).hook());
+    let fitted = estimates(last);
+    let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
+    let ids: Vec<String> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
+        .chain(last.alternatives.iter().map(|e| &effects[*e]))
+        .map(|e| e.id().to_owned())
+        .collect();
+    let ambiguous = !last.alternatives.is_empty() && [Kind::Class, Kind::Several].contains(&kind);
+    let experiment = last.named.last().filter(|_| ambiguous);
+    let experiment = experiment.map(|(form, _)| Experiment {
+        words: effect(*form).experiment().to_owned(),
+        discriminates: ids.clone(),
+    });
+    let floor = floor(train);
+    let probability = last.named.last().map_or(0.0, |(_, p)| *p);
+    let alternatives = ids.iter().skip(1).map(|id| Alternative {
+        id: id.clone(),
+        probability,
+    });
+    let measured = count(train) as usize;
+    Diagnosis {
+        verdict: kind,
+        words: sentence(kind, &named, explained, &floor, &ids),
+        effects: named,
+        alternatives: alternatives.collect(),
+        experiment,
+        location: locate::locate(&baseline.fit.residuals.as_slice()[..measured], train),
+        floor,
+        baseline: (baseline.scores).fitted(estimates(baseline), baseline.mean_square()),
+        augmented: (last.scores).fitted(fitted[..own.len()].to_vec(), last.mean_square()),
+        explained,
+        alarms: alarms(own, &last.fit.at),
+        audit: audit(train, holdout),
+        seconds: 0.0,
+    }
+}
+
+fn kind(
+    baseline: &Standing<'_>,
+    last: &Standing<'_>,
+    explained: f64,
+    hook: impl Fn(usize) -> Hooked,
+) -> Kind {
+    match last.named[..] {
+        _ if baseline.mean_square() < SOUND => Kind::None,
+        [] => Kind::Unexplained,
+        _ if explained < EXPLAINED => Kind::Unexplained,
+        [_] if !last.alternatives.is_empty() => Kind::Class,
+        [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
+        [_] => Kind::Effect,
+        _ => Kind::Several,
+    }
+}
+
+/// Values with intervals from the curvature of chi2, widened where the fit is worse than the noise. They are those of the
+/// fit that tolerates shared errors, and hold the values of the other one.
+fn estimates(standing: &Standing<'_>) -> Vec<Estimated> {
+    let (trial, fit) = (&standing.trial, &standing.tolerant);
+    let scale = standing.mean_square().max(1.0);
+    let covariance = trial.covariance(fit);
+    let quantities = trial.forms.iter().flat_map(|form| &form.quantities);
+    let names = (trial.own.iter().map(|p| (p.name.clone(), p.unit.clone())))
+        .chain(quantities.map(|q| (q.name.clone(), q.unit.to_owned())));
+    let estimate = |(j, (name, unit)): (usize, (String, String))| {
+        let reach = 1.96 * (covariance[(j, j)] * scale).sqrt();
+        let (least, most) = trial.range(j);
+        let (value, tolerant) = (standing.fit.at[j], fit.at[j]);
+        let ci95 = [
+            (tolerant - reach).max(least).min(value),
+            (tolerant + reach).min(most).max(value),
+        ];
+        Estimated {
+            name,
+            value,
+            unit,
+            ci95,
+        }
+    };
+    names.enumerate().map(estimate).collect()
+}
+
+/// The named effects; `estimates` are those of their numbers, one after the other.
+fn name_all(
+    last: &Standing<'_>,
+    forms: &[Form],
+    effects: &[Box<dyn Effect>],
+    mut estimates: &[Estimated],
+    baseline: &Standing<'_>,
+) -> Vec<Named> {
+    let gain = baseline.scores.train_mm() - last.scores.train_mm();
+    let name = |(form, probability): &(usize, f64)| {
+        let (effect, variant) = (&effects[forms[*form].effect], &forms[*form].variant);
+        let parameters = estimates.split_off(..variant.quantities.len());
+        let parameters = parameters.expect("each number has an estimate").to_vec();
+        let words = match variant.name.as_str() {
+            "" => effect.words().to_owned(),
+            which => format!("{} ({which})", effect.words()),
+        };
+        Named {
+            id: effect.id().to_owned(),
+            words,
+            equation: effect.equation().to_owned(),
+            hook: effect.hook(),
+            parameters,
+            probability: *probability,
+            gain_mm: gain,
+        }
+    };
+    last.named.iter().map(name).collect()
+}
+
+/// Numbers at an end of their range, or far from what was known beforehand.
+fn alarms(own: &[Parameter], at: &[f64]) -> Vec<String> {
+    let alarm = |(p, value): (&Parameter, &f64)| {
+        let near = |end: f64| (value - end).abs() < 1e-3 * p.width();
+        if near(p.range.0) || near(p.range.1) {
+            return Some(format!(
+                "{} ended at an end of its range, {value:.4} {}: the range is too narrow, or the number stands for physics \
+                 that is missing",
+                p.name, p.unit
+            ));
+        }
+        let (mean, deviation) = p.prior?;
+        let away = (value - mean).abs() / deviation;
+        (away > FAR).then(|| {
+            format!(
+                "{} is {value:.4} {}, {away:.1} deviations from what was known",
+                p.name, p.unit
+            )
+        })
+    };
+    own.iter().zip(at).filter_map(alarm).collect()
+}
+
+fn floor(data: &[Samples]) -> Floor {
+    let settled = || {
+        data.iter()
+            .flat_map(|s| &s.list)
+            .filter(|s| s.phase != Phase::Moving)
+    };
+    let mean = |squares: f64| (3.0 * squares / settled().count() as f64).sqrt() * 1e3;
+    let position = |s: &Sample| s.position_deviation[0].powi(2) + NUMERICS.0.powi(2);
+    let rotation = |s: &Sample| s.rotation_deviation[0].powi(2) + NUMERICS.1.powi(2);
+    Floor {
+        position_mm: mean(settled().map(position).sum()),
+        rotation_mrad: mean(settled().map(rotation).sum()),
+    }
+}
+
+fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
+    let line = |s: &Samples| {
+        let count = |phase: Phase| s.list.iter().filter(|sample| sample.phase == phase).count();
+        format!(
+            "{}: {} set-points, {} samples on the way, noise {:.3} mm and {:.2} mrad a component",
+            s.name,
+            count(Phase::Settled),
+            count(Phase::Moving),
+            1e3 * s.noise.0,
+            1e3 * s.noise.1
+        )
+    };
+    train.iter().chain(holdout).map(line).collect()
+}
+
+fn sentence(
+    kind: Kind,
+    named: &[Named],
+    explained: f64,
+    floor: &Floor,
+    class: &[String],
+) -> String {
+    let words: Vec<&str> = named.iter().map(|n| n.words.as_str()).collect();
+    let share = 100.0 * explained;
+    let all = words.join("; ");
+    match kind {
+        Kind::None => format!(
+            "Nothing is missing above the floor of {:.2} mm and {:.1} mrad: the calibrated scenario explains the recordings.",
+            floor.position_mm, floor.rotation_mrad
+        ),
+        Kind::Recording => format!(
+            "The recording, not the robot: {all}. That explains {share:.0} % of the mismatch."
+        ),
+        Kind::Effect => {
+            format!("What was left out: {all}. That explains {share:.0} % of the mismatch.")
+        }
+        Kind::Class => format!(
+            "These recordings can't tell {} apart; the best of them ({all}) explains {share:.0} % of the mismatch.",
+            class.join(" and ")
+        ),
+        Kind::Several => format!(
+            "Several things were left out: {all}. Together they explain {share:.0} % of the mismatch."
+        ),
+        Kind::Unexplained if named.is_empty() => {
+            "There is a mismatch, and none of the known effects explains it.".into()
+        }
+        Kind::Unexplained => format!(
+            "There is a mismatch that is not explained: the best that is known ({all}) accounts for {share:.0} % of it only."
+        ),
+    }
+}

@@ -1,0 +1,198 @@
+//! What a diagnosis has come to: the scenario with the effects that are named so far, fitted.
+
+use super::forward::CHANNELS;
+use super::samples::Samples;
+use super::scores::Scores;
+use super::search::{self, Candidate, Form};
+use super::shared::Shared;
+use super::trial::{Linear, Trial};
+use super::{DiagnoseError, SOUND, unfit};
+use crate::config::Source;
+use rand::{RngExt, SeedableRng};
+use rand_pcg::Pcg64Mcg;
+use std::sync::Arc;
+
+/// Share of chi2 that the first effect must explain to be named, and each further one.
+const GAIN: [f64; 2] = [0.25, 0.5];
+/// Shares of chi2 within which two effects can't be told apart, beside [`ODDS`].
+const ALIKE: f64 = 0.1;
+/// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
+const ODDS: f64 = 6.0;
+/// Steps of the calibration, and of fits after the mesh's error has become known.
+const STEPS: (usize, usize) = (12, 4);
+
+/// A fitted model and what it was chosen among.
+#[derive(Clone)]
+pub(super) struct Standing<'a> {
+    /// The model.
+    pub(super) trial: Trial<'a>,
+    /// Its fit.
+    pub(super) fit: Linear,
+    /// The fit that takes errors of mesh and recordings that samples share for noise: it says what they don't explain. The
+    /// other one predicts better with the mesh that there is.
+    pub(super) tolerant: Linear,
+    /// How well it does.
+    pub(super) scores: Scores,
+    /// Forms that are named, and the probability of each among those that were tried.
+    pub(super) named: Vec<(usize, f64)>,
+    /// Effects that do as well as the last one that was named.
+    pub(super) alternatives: Vec<usize>,
+}
+
+impl<'a> Standing<'a> {
+    /// The scenario without effects, its own numbers fitted from their nominal values and from one place in their ranges.
+    ///
+    /// # Errors
+    /// If the scenario has no steady state at a sample.
+    pub(super) fn calibrated(
+        empty: Trial<'a>,
+        holdout: &[Samples],
+        seed: u64,
+    ) -> Result<Self, DiagnoseError> {
+        let nominal: Vec<f64> = empty.own.iter().map(|p| p.nominal).collect();
+        let guides = empty.guides(&nominal).map_err(unfit)?;
+        let guided = Trial {
+            guides: &guides,
+            ..empty.clone()
+        };
+        let mut random = Pcg64Mcg::seed_from_u64(seed);
+        let elsewhere: Vec<f64> = (empty.own.iter().zip(&nominal))
+            .map(|(p, n)| {
+                let to = p.range.0 + random.random::<f64>() * p.width();
+                n + 0.3 * (to - n)
+            })
+            .collect();
+        let fit = |from: &[f64]| {
+            let start = guided.start(from)?;
+            Ok::<_, String>(guided.fit(start, 0..from.len(), STEPS.0))
+        };
+        let (first, second) = rayon::join(|| fit(&nominal), || fit(&elsewhere));
+        let first = first.map_err(unfit)?;
+        let fit = match second {
+            Ok(second) if second.chi2() < first.chi2() - 1e-6 * first.chi2() => second,
+            _ => first,
+        };
+        let scenario = empty.scenario(&fit.at).map_err(unfit)?;
+        Ok(Self {
+            scores: Scores::of(&scenario, empty.data, holdout)?,
+            tolerant: tolerant(&empty, &fit)?,
+            trial: empty,
+            fit,
+            named: Vec::new(),
+            alternatives: Vec::new(),
+        })
+    }
+
+    /// The scenario.
+    pub(super) fn scenario(&self) -> Result<Source, DiagnoseError> {
+        self.trial.scenario(&self.fit.at).map_err(unfit)
+    }
+
+    /// Squared residuals that shared errors don't explain, the mean over all measured numbers.
+    pub(super) fn mean_square(&self) -> f64 {
+        self.tolerant.chi2() / count(self.trial.data)
+    }
+
+    /// Sum of the squared residuals beyond what noise and shared errors make.
+    pub(super) fn beyond_noise(&self) -> f64 {
+        (self.tolerant.chi2() - count(self.trial.data)).max(0.0)
+    }
+
+    /// The same with one more effect, if there is one that is worth it.
+    ///
+    /// # Errors
+    /// If a scenario has no steady state at a sample.
+    pub(super) fn grown(
+        &self,
+        forms: &'a [Form],
+        holdout: &[Samples],
+        told: &(dyn Fn(f64) + Sync),
+    ) -> Result<Option<Self>, DiagnoseError> {
+        let guides = self.trial.guides(&self.fit.at).map_err(unfit)?;
+        let used: Vec<usize> = self.named.iter().map(|(f, _)| forms[*f].effect).collect();
+        let found = search::round(&self.trial, &self.fit, &guides, forms, &used, told);
+        let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
+            return Ok(None);
+        };
+        let gain = GAIN[self.named.len().min(1)];
+        if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
+            return Ok(None);
+        }
+        let trial = self.trial.with(&forms[best.form].variant);
+        let scenario = trial.scenario(&best.fit.at).map_err(unfit)?;
+        let scores = Scores::of(&scenario, trial.data, holdout)?;
+        if scores.worse_than(&self.scores) {
+            return Ok(None);
+        }
+        let mut named = self.named.clone();
+        named.push((best.form, probability));
+        Ok(Some(Self {
+            tolerant: tolerant(&trial, &best.fit)?,
+            fit: best.fit.clone(),
+            trial,
+            scores,
+            named,
+            alternatives,
+        }))
+    }
+
+    /// The best of fitted forms, its probability, and the effects that do as well.
+    fn ranked<'c>(
+        &self,
+        found: &'c [Candidate],
+        forms: &[Form],
+    ) -> Option<(&'c Candidate, f64, Vec<usize>)> {
+        let measured = count(self.trial.data);
+        let scale = (found.first()?.fit.chi2() / measured).max(1.0);
+        let cost = |c: &Candidate| {
+            c.fit.chi2() / scale + forms[c.form].variant.quantities.len() as f64 * measured.ln()
+        };
+        let mut ranked: Vec<_> = found.iter().map(|c| (cost(c), c)).collect();
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (best_cost, best) = ranked[0];
+        let mut weights: Vec<(usize, f64)> = Vec::new();
+        let mut alike = Vec::new();
+        for (cost, candidate) in &ranked {
+            let effect = forms[candidate.form].effect;
+            if weights.iter().any(|(e, _)| *e == effect) {
+                continue;
+            }
+            let same =
+                cost - best_cost < ODDS || candidate.fit.chi2() < (1.0 + ALIKE) * best.fit.chi2();
+            // those that can't be told apart are as likely
+            let weight = if same {
+                alike.push(effect);
+                1.0
+            } else {
+                (-(cost - best_cost) / 2.0).exp()
+            };
+            weights.push((effect, weight));
+        }
+        let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
+        // the best is the first of them
+        alike.remove(0);
+        Some((best, 1.0 / total, alike))
+    }
+}
+
+/// A fit continued with the errors that samples share, if there is anything to explain.
+fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<Linear, DiagnoseError> {
+    if trial.forms.is_empty() && fit.chi2() < SOUND * count(trial.data) {
+        return Ok(fit.clone());
+    }
+    let source = trial.scenario(&fit.at).map_err(unfit)?;
+    let guides = trial.guides(&fit.at).map_err(unfit)?;
+    let shared = Shared::biases(trial.data).with_mesh(&source, trial.data)?;
+    let trial = Trial {
+        guides: &guides,
+        shared: Arc::new(shared),
+        ..trial.clone()
+    };
+    let start = trial.start(&fit.at).map_err(unfit)?;
+    Ok(trial.fit(start, 0..fit.at.len(), STEPS.1))
+}
+
+/// Numbers that are measured.
+pub(super) fn count(data: &[Samples]) -> f64 {
+    data.iter().map(|s| s.list.len() * CHANNELS).sum::<usize>() as f64
+}
