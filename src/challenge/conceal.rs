@@ -3,10 +3,10 @@
 use super::spec::{Foreign, Spec};
 use super::truth::{Concealed, Truth};
 use super::{ChallengeError, NOMINAL, RECORDINGS, SEAL, TRUTH, hash, tours};
+use crate::compare::film;
 use crate::config::{Problem, Problems, Source};
-use crate::diagnose::forward::film;
 use crate::identify::{Effect, Parameter, Robot, Variant};
-use crate::recordings::{Mocap, Pose, RADIANS_PER_TICK, Recording, RobotGeometry, Track, to_world};
+use crate::recordings::{Pose, RADIANS_PER_TICK, Recording, RobotGeometry};
 use nalgebra::{UnitQuaternion, Vector3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -304,36 +304,16 @@ impl Draw<'_> {
             let shift = bias[b].0 + vector(*spec.noise.0, random);
             let turn = UnitQuaternion::from_scaled_axis(bias[b].1 + vector(*spec.noise.1, random));
             let moved = pose.translation.vector + shift;
-            to_world(&Pose::from_parts(moved.into(), turn * pose.rotation))
+            Pose::from_parts(moved.into(), turn * pose.rotation)
         };
-        let platform = poses.iter().map(|p| seen(0, &p[0])).collect::<Vec<_>>();
-        let ring = poses.iter().map(|p| seen(1, &p[1])).collect::<Vec<_>>();
-        let base = Pose::translation(0.0, 0.0, geometry.base_markers);
-        let mocap = Mocap {
-            base: Track::new(times.iter().map(|_| to_world(&base))),
-            platform: Track::new(platform),
-            ring: Track::new(ring),
-        };
-        // motors report whole units of 0.229 turns a minute
-        let unit = 0.229 * std::f64::consts::TAU / 60.0;
-        let speed = |row: usize| -> [f64; 4] {
-            let before = row.saturating_sub(1);
-            std::array::from_fn(|i| {
-                ((angles[row][i] - angles[before][i]) * *spec.rate / unit).round()
-            })
-        };
+        let poses: Vec<[Pose; 2]> = (poses.iter())
+            .map(|[platform, ring]| [seen(0, platform), seen(1, ring)])
+            .collect();
         let late = *spec.jitter / 2.0_f64.sqrt();
         let most = 0.4 / *spec.rate;
-        Ok(Recording {
-            name: name.to_owned(),
-            velocities: (0..times.len()).map(speed).collect(),
-            loads: vec![[0.0; 4]; times.len()],
-            time: (times.iter())
-                .map(|t| 1.0 + t + (late * normal(random)).clamp(-most, most))
-                .collect(),
-            goal,
-            present,
-            mocap: Some(mocap),
-        })
+        let time = (times.iter())
+            .map(|t| 1.0 + t + (late * normal(random)).clamp(-most, most))
+            .collect();
+        Ok(Recording::simulated(name, time, goal, present, &poses))
     }
 }

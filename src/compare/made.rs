@@ -1,10 +1,8 @@
 //! A recording made by Auxetica itself, for when no real one is at hand.
 
-use super::{CompareError, observed::motor_inputs, simulated};
+use super::{CompareError, film, observed::motor_inputs};
 use crate::config::Source;
-use crate::engine::{Model, RunError, SteadyOptions, SteadySolver};
-use crate::recordings::{Mocap, Pose, RADIANS_PER_TICK, Recording, RobotGeometry, Track, to_world};
-use nalgebra::UnitQuaternion;
+use crate::recordings::{RADIANS_PER_TICK, Recording};
 use std::path::Path;
 
 /// Set-points of the elongation, each held.
@@ -13,8 +11,6 @@ const SETPOINTS: usize = 20;
 const ROWS: (usize, usize) = (3, 12);
 /// Time between rows \[s\], as in the real recordings.
 const ROW_TIME: f64 = 0.108;
-/// Goal velocity while moving, in the motors' unit.
-const MOVING: f64 = 20.0;
 
 /// Writes to `folder` (which must not exist) the recording of a robot of the scenario's kind that elongates from rest
 /// to a half turn of all motors: steady states, without noise.
@@ -38,46 +34,9 @@ pub fn make_recording(source: &Source, folder: &Path) -> Result<(), CompareError
         .map(|ticks| ticks.map(|t| t * RADIANS_PER_TICK))
         .collect();
     let inputs = motor_inputs(&time, &angles).map_err(CompareError::Unfit)?;
-    let mut model = Model::build(source, Some(inputs))?;
-    let markers = simulated::markers(&model)?;
-    model.system.set_time(time[0]);
-    let mut solver =
-        SteadySolver::new(&mut model.system, SteadyOptions::default()).map_err(RunError::from)?;
-    let (mut platform, mut ring) = (Vec::new(), Vec::new());
-    for time in &time {
-        solver
-            .advance(&mut model.system, *time)
-            .map_err(RunError::from)?;
-        for (poses, marker) in [(&mut platform, &markers[0]), (&mut ring, &markers[1])] {
-            poses.push(to_world(&simulated::pose(&model, marker, None)));
-        }
-    }
-    let base = Pose::from_parts(
-        nalgebra::Translation3::new(0.0, 0.0, RobotGeometry::default().base_markers),
-        UnitQuaternion::identity(),
-    );
-    let recording = Recording {
-        name: "made by Auxetica".into(),
-        goal: (0..rows)
-            .map(|row| present[row - row % per_setpoint + per_setpoint - 1])
-            .collect(),
-        velocities: (0..rows)
-            .map(|row| {
-                [if row >= per_setpoint && row % per_setpoint < ROWS.0 {
-                    MOVING
-                } else {
-                    0.0
-                }; 4]
-            })
-            .collect(),
-        loads: vec![[0.0; 4]; rows],
-        mocap: Some(Mocap {
-            base: Track::new(std::iter::repeat_n(to_world(&base), rows)),
-            platform: Track::new(platform),
-            ring: Track::new(ring),
-        }),
-        time,
-        present,
-    };
+    let goal = (0..rows).map(|row| present[row - row % per_setpoint + per_setpoint - 1]);
+    let goal = goal.collect();
+    let poses = film(source, inputs, &time)?;
+    let recording = Recording::simulated("made by Auxetica", time, goal, present, &poses);
     Ok(recording.write(folder)?)
 }

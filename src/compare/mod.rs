@@ -4,11 +4,13 @@
 //! Marker frames sit on their bodies a little off and at arbitrary angles, so both sides are referred to the rest
 //! pose: rotations count from it, and the simulated marker point is moved to where the recorded one was at rest.
 
+mod film;
 mod made;
 mod mismatch;
 mod observed;
 mod simulated;
 
+pub use film::film;
 pub use made::make_recording;
 pub use mismatch::{BodyMismatch, Comparison, Worst};
 pub use observed::{Observed, SampleKind};

@@ -5,7 +5,7 @@ use crate::compare::{CompareError, markers, pose};
 use crate::config::Source;
 use crate::engine::scenario::{Datum, Marker};
 use crate::engine::system::Saved;
-use crate::engine::{Inputs, Model, RunError, Sensitivities, SteadySolver};
+use crate::engine::{Model, RunError, Sensitivities, SteadySolver};
 use crate::recordings::Pose;
 use nalgebra::DMatrix;
 
@@ -55,6 +55,12 @@ impl Shown {
             points: Points { markers, rest },
         })
     }
+
+    /// Whether it depends on what was passed on the way.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        self.model.system.remembers()
+    }
 }
 
 /// A scenario that is solved under the motor angles of a recording.
@@ -66,6 +72,8 @@ pub struct Run<'a> {
     rest: Saved,
     /// Newton iterations that are left.
     left: usize,
+    /// Whether rows between samples must be passed, since a law remembers them.
+    remembers: bool,
 }
 
 /// States of all samples, from which others are found faster.
@@ -84,7 +92,7 @@ impl<'a> Run<'a> {
     ) -> Result<Self, CompareError> {
         let (left, smallest) = match guide {
             Some(_) => (ITERATIONS * samples.list.len(), SMALLEST),
-            None => (usize::MAX, 0.0),
+            None => (usize::MAX / 2, 0.0),
         };
         let mut shown = Shown::new(source, samples)?;
         let system = &mut shown.model.system;
@@ -95,13 +103,31 @@ impl<'a> Run<'a> {
             .advance(system, samples.rest)
             .map_err(RunError::from)?;
         let rest = system.save();
-        Ok(Self {
+        let remembers = system.remembers();
+        let mut run = Self {
             guide,
             shown,
             solver,
             rest,
             left,
-        })
+            remembers: false,
+        };
+        run.remember(remembers, samples);
+        Ok(run)
+    }
+
+    fn remember(&mut self, remembers: bool, samples: &Samples) {
+        if remembers && !self.remembers {
+            self.remembers = true;
+            self.left += ITERATIONS * samples.passed.len();
+        }
+    }
+
+    /// Goes to a time on the way to a sample.
+    fn pass(&mut self, time: f64) -> Result<(), CompareError> {
+        let system = &mut self.shown.model.system;
+        let report = self.solver.advance(system, time).map_err(RunError::from)?;
+        self.spend(report.iterations, time)
     }
 
     /// Goes to sample `i`, by way of the guide's state if there is one.
@@ -143,6 +169,14 @@ impl<'a> Run<'a> {
     pub fn all(&mut self, samples: &Samples) -> Result<(Vec<f64>, Guide), CompareError> {
         let (mut apart, mut states) = (Vec::new(), Vec::new());
         for i in 0..samples.list.len() {
+            let way = if self.remembers {
+                samples.on_the_way(i)
+            } else {
+                &[]
+            };
+            for time in way {
+                self.pass(*time)?;
+            }
             self.go(samples, i)?;
             apart.extend(difference(
                 &self.shown.model,
@@ -166,8 +200,9 @@ impl<'a> Run<'a> {
         pairs: Vec<(f64, [Shown; 2])>,
         most: f64,
     ) -> Result<(Vec<f64>, DMatrix<f64>), CompareError> {
-        let runs = pairs.iter().flat_map(|(_, runs)| runs);
-        let points: Vec<_> = runs.map(|run| run.points.clone()).collect();
+        let runs = || pairs.iter().flat_map(|(_, runs)| runs);
+        self.remember(runs().any(Shown::remembers), samples);
+        let points: Vec<_> = runs().map(|run| run.points.clone()).collect();
         let columns = pairs.len();
         let models = pairs
             .into_iter()
@@ -177,6 +212,18 @@ impl<'a> Run<'a> {
         let mut rows: Vec<f64> = Vec::new();
         let mut left = most;
         for (i, sample) in samples.list.iter().enumerate() {
+            let way = if self.remembers {
+                samples.on_the_way(i)
+            } else {
+                &[]
+            };
+            for time in way {
+                self.pass(*time)?;
+                // all models remember
+                let system = &mut self.shown.model.system;
+                let nothing = sensitivities.at(&mut self.solver, system, &|_| vec![]);
+                nothing.map_err(RunError::from)?;
+            }
             self.go(samples, i)?;
             let shown = &self.shown;
             let white = sample.whiten(difference(&shown.model, &shown.points, samples, i));
@@ -236,32 +283,6 @@ fn difference(model: &Model, points: &Points, samples: &Samples, i: usize) -> [f
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
     Ok(Run::new(source, samples, None)?.all(samples)?.0)
-}
-
-/// Poses of both markers as motion capture sees them, in steady states one after the other.
-///
-/// # Errors
-/// If the scenario can't be built, or has no steady state at one of the times.
-pub fn film(
-    source: &Source,
-    inputs: Inputs,
-    times: &[f64],
-) -> Result<Vec<[Pose; 2]>, CompareError> {
-    let mut model = Model::build(source, Some(inputs))?;
-    let markers = markers(&model)?;
-    let mut options = model.solver.steady_options();
-    options.smallest_increment = options.smallest_increment.max(SMALLEST);
-    let system = &mut model.system;
-    system.set_time(times.first().copied().unwrap_or(0.0));
-    let mut solver = SteadySolver::new(system, options).map_err(RunError::from)?;
-    let mut poses = Vec::with_capacity(times.len());
-    for time in times {
-        solver
-            .advance(&mut model.system, *time)
-            .map_err(RunError::from)?;
-        poses.push([0, 1].map(|b| pose(&model, &markers[b], None)));
-    }
-    Ok(poses)
 }
 
 /// Residuals of a recording in standard deviations.

@@ -12,6 +12,9 @@ const STILL: f64 = 30.0;
 const BLOCK: usize = 5;
 /// Every so many rows on the way, one is taken.
 const STRIDE: usize = 6;
+/// Rows after motors have stopped in which the robot still relaxes, and every so many rows it is looked at later.
+const RELAXING: usize = 6;
+const QUIET: usize = 4;
 /// Error of the time that a moving row is taken at [s].
 const CLOCK: f64 = 0.01;
 /// Share of the robot's speed that quasi-static states of moving rows may be wrong by, as a time [s].
@@ -54,6 +57,8 @@ pub struct Samples {
     pub list: Vec<Sample>,
     /// Motor angles of all rows.
     pub inputs: Inputs,
+    /// Times of rows that a model which remembers must pass [s].
+    pub passed: Vec<f64>,
     /// Rest poses of the markers.
     pub reference: Reference,
     /// Motor angles at rest are zero from here [s].
@@ -71,6 +76,18 @@ impl Samples {
     /// If it can't be read or shows no dwell.
     pub fn read(folder: &Path) -> Result<Self, CompareError> {
         Self::of(&Recording::read(folder)?)
+    }
+
+    /// Times between the sample before `i` and `i` that a model which remembers must pass \[s\].
+    pub fn on_the_way(&self, i: usize) -> &[f64] {
+        let from = if i == 0 {
+            self.rest
+        } else {
+            self.list[i - 1].time
+        };
+        let place = |time: f64| self.passed.partition_point(|t| *t <= time);
+        let to = self.passed.partition_point(|t| *t < self.list[i].time);
+        &self.passed[place(from).min(to)..to]
     }
 
     /// Reduces a recording.
@@ -100,6 +117,12 @@ impl Samples {
         }
         let still: Vec<bool> = (0..rows).map(|row| rate(row) < limit).collect();
         let noise = noise(&still, tracks);
+        let lively = |row: &usize| {
+            let recent = row.saturating_sub(RELAXING)..=*row;
+            row % QUIET == 0 || !still[recent].iter().all(|still| *still)
+        };
+        let passed = (0..rows).filter(lively);
+        let passed = passed.map(|row| motors.time[row]).collect();
         let mut list = Vec::new();
         let mut series = motors.present.clone();
         let mut row = 0;
@@ -163,6 +186,7 @@ impl Samples {
             name: recording.name.clone(),
             list,
             inputs,
+            passed,
             reference,
             rest: motors.time[0],
             noise,

@@ -1,6 +1,6 @@
 //! The search for effects: screen all in one linearised pass, fit the best, keep what is worth it, begin again.
 
-use super::forward::Guide;
+use super::forward::{Guide, Shown};
 use super::trial::{DAMPING, Linear, Trial};
 use crate::identify::{Effect, Robot, Variant};
 use rayon::prelude::*;
@@ -68,7 +68,15 @@ pub fn round(
         let done = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
         told(from + (to - from) * done as f64 / all as f64);
     };
-    let chunks: Vec<&[usize]> = open.chunks(SCREENED).collect();
+    // those that remember take more states, which others need not pay for
+    let remembers = |form: &usize| {
+        let trial = with(*form);
+        let typical = trial.scenario(&trial.typical(&here.at));
+        let shown = typical.map(|source| Shown::new(&source, &trial.data[0]));
+        matches!(shown, Ok(Ok(shown)) if shown.remembers())
+    };
+    let (slow, fast): (Vec<usize>, Vec<usize>) = open.into_par_iter().partition(remembers);
+    let chunks: Vec<&[usize]> = slow.chunks(SCREENED).chain(fast.chunks(SCREENED)).collect();
     let screened = chunks.par_iter().flat_map(|chunk| {
         let some = screen(&guided, here, forms, chunk);
         tick(chunks.len(), 0.0, 0.3);

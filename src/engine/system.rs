@@ -256,6 +256,27 @@ impl System {
         }
     }
 
+    /// Whether a rod law remembers states, so that it matters which are passed.
+    #[must_use]
+    pub fn remembers(&self) -> bool {
+        self.groups
+            .iter()
+            .any(|g| !g.bodies.state.memory.is_empty())
+    }
+
+    /// What rod laws remember, a list for each group.
+    pub(crate) fn memory(&self) -> Vec<Vec<f64>> {
+        let memory = self.groups.iter().map(|g| g.bodies.state.memory.clone());
+        memory.collect()
+    }
+
+    /// Exchanges what rod laws remember.
+    pub(crate) fn swap_memory(&mut self, memory: &mut [Vec<f64>]) {
+        for (group, memory) in self.groups.iter_mut().zip(memory) {
+            std::mem::swap(&mut group.bodies.state.memory, memory);
+        }
+    }
+
     /// Lets rod laws remember the present state. Solvers do it for every state that they accept.
     pub(crate) fn remember(&mut self) {
         let now = Moment {

@@ -53,7 +53,8 @@ impl Quantity {
     }
 }
 
-/// One form of an effect: its numbers, and the changes of the scenario in which `{0}`, `{1}` .. stand for them.
+/// One form of an effect: its numbers, and the changes of the scenario in which `{0}`, `{1}` .. stand for them (`-{0}` for
+/// the opposite).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Variant {
     /// What distinguishes it from the effect's other forms, such as the rod; empty if there is one only.
@@ -122,7 +123,9 @@ impl Variant {
         let filled = |text: &str| {
             let mut text = text.to_owned();
             for (k, value) in values.iter().enumerate() {
-                text = text.replace(&format!("{{{k}}}"), &format!("{value:?}"));
+                let place = format!("{{{k}}}");
+                text = text.replace(&format!("-{place}"), &format!("{:?}", -value));
+                text = text.replace(&place, &format!("{value:?}"));
             }
             text
         };

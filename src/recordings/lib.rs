@@ -45,6 +45,7 @@ mod published;
 mod recording;
 mod reference;
 mod settled;
+mod simulated;
 mod steady;
 mod table;
 mod writer;

@@ -110,6 +110,8 @@ pub struct SteadySolver {
     tangent: Tangent,
     /// How far stations have moved since the factors were found, if there are any.
     moved: Option<f64>,
+    /// What laws remembered when the present state was sought.
+    memory: Vec<Vec<f64>>,
     loads: Vec<f64>,
     change: Vec<f64>,
 }
@@ -129,6 +131,7 @@ impl SteadySolver {
             unknowns,
             freedom,
             moved: None,
+            memory: system.memory(),
             loads: vec![0.0; size],
             change: vec![0.0; size],
         })
@@ -155,6 +158,7 @@ impl SteadySolver {
                 system.time = start_time;
                 return Err(NotSteady { time: to, reason });
             }
+            self.memory = system.memory();
             system.remember();
             if whole {
                 return Ok(report);

@@ -74,7 +74,11 @@ impl Sensitivities {
         let time = system.time;
         let fail = |reason| NotSteady { time, reason };
         let mut report = SteadyReport::default();
-        solver.factorise(system, &mut report).map_err(fail)?;
+        // laws had not remembered the state yet when it was sought
+        system.swap_memory(&mut solver.memory);
+        let factorised = solver.factorise(system, &mut report);
+        system.swap_memory(&mut solver.memory);
+        factorised.map_err(fail)?;
         let here = Poses::of(system);
         let columns = self.parameters.iter_mut().map(|parameter| {
             let change = parameter.change(solver, &here, time).map_err(fail)?;

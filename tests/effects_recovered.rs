@@ -1,0 +1,153 @@
+//! Every effect leaves its mark in a recording that is made with it, and its numbers are found again in it.
+
+use auxetica::compare::{CompareError, film};
+use auxetica::config::Source;
+use auxetica::diagnose::samples::Samples;
+use auxetica::diagnose::trial::Trial;
+use auxetica::engine::{Inputs, Series};
+use auxetica::identify::{Effect, Quantity, Robot, Variant};
+use auxetica::recordings::{RADIANS_PER_TICK, Recording};
+use rayon::prelude::*;
+use std::path::Path;
+use std::sync::Arc;
+
+/// Winding of the four rods at set-points [rad].
+const TOUR: [[f64; 4]; 8] = [
+    [0.0, 0.0, 0.0, 0.0],
+    [4.0, 1.0, 0.5, 2.5],
+    [1.5, 0.0, 2.0, 5.0],
+    [3.0, 3.0, 3.0, 3.0],
+    [0.0, 5.0, 3.5, 0.5],
+    [5.0, 5.0, 5.0, 4.0],
+    [2.0, 0.5, 5.0, 1.0],
+    [0.4, 0.8, 0.2, 0.6],
+];
+/// Rows in a second, rows at rest, and the motors' speed [rad/s].
+const RATE: f64 = 9.3;
+const HELD: usize = 14;
+const SPEED: f64 = 2.0;
+
+/// A noiseless recording of the tour.
+fn recorded(source: &Source, robot: &Robot) -> Result<Recording, CompareError> {
+    let mut rows = vec![(TOUR[0], TOUR[0]); HELD];
+    for pair in TOUR.windows(2) {
+        let apart = (0..4).map(|i| (pair[1][i] - pair[0][i]).abs());
+        let steps = (apart.fold(0.0, f64::max) / SPEED * RATE).ceil() as usize;
+        for step in 1..steps + HELD {
+            let way = SPEED / RATE * step as f64;
+            let toward = |i: usize| pair[0][i] + (pair[1][i] - pair[0][i]).clamp(-way, way);
+            rows.push((std::array::from_fn(toward), pair[1]));
+        }
+    }
+    let ticks = |wound: [f64; 4]| -> [f64; 4] {
+        std::array::from_fn(|i| (robot.handed[i] * wound[i] / RADIANS_PER_TICK).round())
+    };
+    let time: Vec<f64> = (0..rows.len()).map(|row| row as f64 / RATE).collect();
+    let present: Vec<[f64; 4]> = rows.iter().map(|(now, _)| ticks(*now)).collect();
+    let goal = rows.iter().map(|(_, goal)| ticks(*goal)).collect();
+    let channel = |i: usize| {
+        let angles = present.iter().map(|row| row[i] * RADIANS_PER_TICK);
+        let series = Series::new(time.clone(), angles.collect());
+        (format!("motor_{}", i + 1), series.expect("rising times"))
+    };
+    let inputs = Inputs::new((0..4).map(channel).collect());
+    let poses = film(source, inputs, &time)?;
+    Ok(Recording::simulated("made", time, goal, present, &poses))
+}
+
+/// A value at which the effect is not as strong as typically.
+fn strong(q: &Quantity) -> f64 {
+    let value = if q.absent_where_large() {
+        q.typical / 0.8
+    } else {
+        q.null + 0.8 * (q.typical - q.null)
+    };
+    value.clamp(q.range.0, q.range.1)
+}
+
+/// One form of each kind: what is the same on every rod is tried on one.
+fn forms(robot: &Robot) -> Vec<(Box<dyn Effect>, Variant)> {
+    let mut seen = std::collections::BTreeSet::new();
+    let mut forms = Vec::new();
+    for effect in <dyn Effect>::all() {
+        let each = effect.variants(robot).into_iter();
+        let kind = |v: &Variant| {
+            v.name
+                .trim_end_matches(|c: char| c.is_ascii_digit())
+                .to_owned()
+        };
+        let new = each
+            .filter(|v| seen.insert((effect.id(), kind(v))))
+            .collect::<Vec<_>>();
+        let id = effect.id();
+        forms.extend(new.into_iter().map(|v| {
+            let mut all = <dyn Effect>::all();
+            let at = all
+                .iter()
+                .position(|e| e.id() == id)
+                .expect("it is one of them");
+            (all.swap_remove(at), v)
+        }));
+    }
+    forms
+}
+
+#[test]
+fn the_numbers_of_every_effect_are_found_in_a_recording_made_with_it() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_concealed.ron");
+    let source = Source::load(&file, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let robot = Robot::of(&source).unwrap_or_else(|e| panic!("{e}"));
+    let all = forms(&robot);
+    all.par_iter().for_each(|(effect, form)| {
+        let what = format!("{} {}", effect.id(), form.name);
+        let truth: Vec<f64> = form.quantities.iter().map(strong).collect();
+        let robot_with = form
+            .apply(&source, &truth)
+            .unwrap_or_else(|e| panic!("{what}: {e}"));
+        let recording = recorded(&robot_with, &robot);
+        let data = recording.and_then(|recording| Samples::of(&recording));
+        let data = [data.unwrap_or_else(|e| panic!("{what}: {e}"))];
+        let trial = Trial {
+            source: &source,
+            own: &[],
+            forms: vec![form],
+            data: &data,
+            guides: &[],
+            shared: Arc::default(),
+        };
+        let at = |values: &[f64]| {
+            trial
+                .start(values)
+                .unwrap_or_else(|e| panic!("{what}: {e}"))
+        };
+        let null: Vec<f64> = form.quantities.iter().map(|q| q.null).collect();
+        let without = at(&null).chi2();
+        let start = at(&trial.typical(&[]));
+        let all = 0..truth.len();
+        let fit = trial.fit(start, all, 15);
+        // the tour doesn't meet every wall
+        if without < 1.0 {
+            assert_eq!(effect.id(), "obstacle", "{what} leaves no mark");
+            return;
+        }
+        let left = fit.chi2();
+        assert!(
+            left < 1e-2 * without.min(1e3),
+            "{what}: {without} -> {left}"
+        );
+        for ((q, found), truth) in form.quantities.iter().zip(&fit.at).zip(&truth) {
+            // a time constant as long as the tour shows little
+            let share = if effect.id() == "thermal_drift" {
+                0.15
+            } else {
+                0.07
+            };
+            let size = truth.abs().max(q.typical.abs());
+            assert!(
+                (found - truth).abs() < share * size,
+                "{what}, {}: {found} for {truth}",
+                q.name
+            );
+        }
+    });
+}
