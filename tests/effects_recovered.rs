@@ -112,7 +112,6 @@ fn the_numbers_of_every_effect_are_found_in_a_recording_made_with_it() {
             own: &[],
             forms: vec![form],
             data: &data,
-            guides: &[],
             shared: Arc::default(),
         };
         let at = |values: &[f64]| {

@@ -3,7 +3,7 @@
 use super::progress::shared;
 use super::table::table;
 use super::{Failure, ScenarioArgs, print, write_whole};
-use crate::diagnose::verdict::{Diagnosis, Estimated, Fitted};
+use crate::diagnose::verdict::{Diagnosis, Estimated, Fitted, Noticeable};
 use crate::diagnose::{Request, diagnose};
 use std::path::{Path, PathBuf};
 
@@ -96,6 +96,17 @@ fn show(d: &Diagnosis) -> String {
             effect.id, effect.words, effect.probability, effect.equation
         );
         text += &numbers(&effect.parameters);
+    }
+    if let Some(h) = &d.hidden {
+        text += &h.words();
+        text += "\n";
+    }
+    let (seen, never): (Vec<_>, Vec<_>) = d.noticeable.iter().partition(|n| n.possible);
+    if !seen.is_empty() {
+        let words = |some: &[&Noticeable]| some.iter().map(|n| n.words()).collect::<Vec<_>>();
+        let all = [words(&seen), words(&never)].concat().join("\n  ");
+        text +=
+            &format!("from where on effects would have been noticed, to first order:\n  {all}\n");
     }
     if let Some(e) = &d.experiment {
         text += &format!(

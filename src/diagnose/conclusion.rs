@@ -4,13 +4,17 @@ use super::SOUND;
 use super::forward::NUMERICS;
 use super::locate;
 use super::samples::{Phase, Sample, Samples};
-use super::search::Form;
+use super::search::{self, Form};
 use super::standing::{Standing, count};
-use super::verdict::{Alternative, Diagnosis, Estimated, Experiment, Floor, Kind, Named};
-use crate::identify::{Effect, Hooked, Parameter};
+use super::verdict::{
+    Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
+};
+use crate::identify::{Effect, Hooked, Parameter, Quantity};
 
 /// Share of the mismatch beyond noise that the named effects must explain.
 const EXPLAINED: f64 = 0.6;
+/// Mean squared residual beyond which what is left is not explained, however much is.
+const LEFT: f64 = 4.0;
 /// Deviations from its prior beyond which a calibrated number is told.
 const FAR: f64 = 2.5;
 
@@ -50,7 +54,7 @@ pub(super) fn conclude(
     let measured = count(train) as usize;
     Diagnosis {
         verdict: kind,
-        words: sentence(kind, &named, explained, &floor, &ids),
+        words: sentence(kind, &named, (explained, last.mean_square()), &floor, &ids),
         effects: named,
         alternatives: alternatives.collect(),
         experiment,
@@ -59,6 +63,11 @@ pub(super) fn conclude(
         baseline: (baseline.scores).fitted(estimates(baseline), baseline.mean_square()),
         augmented: (last.scores).fitted(fitted[..own.len()].to_vec(), last.mean_square()),
         explained,
+        hidden: hidden(baseline, last),
+        noticeable: match kind {
+            Kind::None => noticeable(baseline, forms, effects),
+            _ => vec![],
+        },
         alarms: alarms(own, &last.fit.at),
         audit: audit(train, holdout),
         seconds: 0.0,
@@ -74,7 +83,7 @@ fn kind(
     match last.named[..] {
         _ if baseline.mean_square() < SOUND => Kind::None,
         [] => Kind::Unexplained,
-        _ if explained < EXPLAINED => Kind::Unexplained,
+        _ if explained < EXPLAINED || last.mean_square() > LEFT => Kind::Unexplained,
         [_] if !last.alternatives.is_empty() => Kind::Class,
         [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
         [_] => Kind::Effect,
@@ -139,6 +148,58 @@ fn name_all(
     last.named.iter().map(name).collect()
 }
 
+/// How much of the effects' mark the calibration had taken up, and which number most of it.
+fn hidden(baseline: &Standing<'_>, last: &Standing<'_>) -> Option<Hidden> {
+    if last.named.is_empty() {
+        return None;
+    }
+    let (trial, own) = (&baseline.trial, baseline.trial.own);
+    let bare = trial.linear(&last.fit.at[..own.len()], 0..0, None, f64::INFINITY);
+    let beyond = |chi2: f64| (chi2 - count(trial.data)).max(0.0);
+    let (mark, seen) = (beyond(bare.ok()?.chi2()), beyond(baseline.fit.chi2()));
+    let moved = |j: &usize| {
+        let p = &own[*j];
+        let size = p.prior.map_or(0.1 * p.width(), |(_, deviation)| deviation);
+        (baseline.fit.at[*j] - last.fit.at[*j]).abs() / size
+    };
+    let j = (0..own.len()).max_by(|a, b| moved(a).total_cmp(&moved(b)))?;
+    Some(Hidden {
+        share: (1.0 - seen / mark.max(1e-300)).clamp(0.0, 1.0),
+        parameter: own[j].name.clone(),
+        values: [baseline.fit.at[j], last.fit.at[j]],
+        unit: own[j].unit.clone(),
+    })
+}
+
+/// From which value on each effect would have been noticed.
+fn noticeable(
+    baseline: &Standing<'_>,
+    forms: &[Form],
+    effects: &[Box<dyn Effect>],
+) -> Vec<Noticeable> {
+    let trial = &baseline.trial;
+    let most = (SOUND - 1.0) * count(trial.data);
+    let found = search::noticeable(trial, &baseline.fit, forms, most);
+    let notice = |(form, share): (usize, f64)| {
+        let Form { effect, variant } = &forms[form];
+        let makes = |q: &&Quantity| q.absent_where_large() || (q.typical - q.null).abs() > 1e-12;
+        let k = variant.quantities.iter().position(|q| makes(&q))?;
+        let q = &variant.quantities[k];
+        let place = trial.own.len() + k;
+        let with = trial.with(variant);
+        let value = with.part(place, (q.null, q.typical), share);
+        Some(Noticeable {
+            id: effects[*effect].id().to_owned(),
+            form: variant.name.clone(),
+            parameter: q.name.clone(),
+            possible: q.range.0 <= value && value <= q.range.1,
+            value,
+            unit: q.unit.to_owned(),
+        })
+    };
+    found.into_iter().filter_map(notice).collect()
+}
+
 /// Numbers at an end of their range, or far from what was known beforehand.
 fn alarms(own: &[Parameter], at: &[f64]) -> Vec<String> {
     let alarm = |(p, value): (&Parameter, &f64)| {
@@ -195,7 +256,7 @@ fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
 fn sentence(
     kind: Kind,
     named: &[Named],
-    explained: f64,
+    (explained, left): (f64, f64),
     floor: &Floor,
     class: &[String],
 ) -> String {
@@ -224,7 +285,8 @@ fn sentence(
             "There is a mismatch, and none of the known effects explains it.".into()
         }
         Kind::Unexplained => format!(
-            "There is a mismatch that is not explained: the best that is known ({all}) accounts for {share:.0} % of it only."
+            "There is a mismatch that is not explained: what is known ({all}) accounts for {share:.0} % of it, and {left:.0} \
+             times what noise makes is left."
         ),
     }
 }

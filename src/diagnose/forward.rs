@@ -162,12 +162,12 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Simulated less recorded at every sample, and the states.
+    /// Simulated less recorded at every sample.
     ///
     /// # Errors
     /// If a sample has no steady state.
-    pub fn all(&mut self, samples: &Samples) -> Result<(Vec<f64>, Guide), CompareError> {
-        let (mut apart, mut states) = (Vec::new(), Vec::new());
+    fn all(&mut self, samples: &Samples) -> Result<Vec<f64>, CompareError> {
+        let mut apart = Vec::new();
         for i in 0..samples.list.len() {
             let way = if self.remembers {
                 samples.on_the_way(i)
@@ -178,19 +178,14 @@ impl<'a> Run<'a> {
                 self.pass(*time)?;
             }
             self.go(samples, i)?;
-            apart.extend(difference(
-                &self.shown.model,
-                &self.shown.points,
-                samples,
-                i,
-            ));
-            states.push(self.shown.model.system.save());
+            let Shown { model, points } = &self.shown;
+            apart.extend(difference(model, points, samples, i));
         }
-        Ok((apart, states))
+        Ok(apart)
     }
 
-    /// Whitened residuals, and derivatives by numbers of which `pairs` has the steps and the models with larger and
-    /// smaller ones.
+    /// Whitened residuals, derivatives by numbers of which `pairs` has the steps and the models with larger and smaller
+    /// ones, and the states.
     ///
     /// # Errors
     /// If a sample has no steady state, or a singular one, or once the residuals' squares are more than `most`.
@@ -199,7 +194,7 @@ impl<'a> Run<'a> {
         samples: &Samples,
         pairs: Vec<(f64, [Shown; 2])>,
         most: f64,
-    ) -> Result<(Vec<f64>, DMatrix<f64>), CompareError> {
+    ) -> Result<(Vec<f64>, DMatrix<f64>, Guide), CompareError> {
         let runs = || pairs.iter().flat_map(|(_, runs)| runs);
         self.remember(runs().any(Shown::remembers), samples);
         let points: Vec<_> = runs().map(|run| run.points.clone()).collect();
@@ -208,7 +203,7 @@ impl<'a> Run<'a> {
             .into_iter()
             .map(|(step, [a, b])| (step, [a.model, b.model]));
         let mut sensitivities = Sensitivities::between(models.collect());
-        let mut residuals = Vec::new();
+        let (mut residuals, mut states) = (Vec::new(), Vec::new());
         let mut rows: Vec<f64> = Vec::new();
         let mut left = most;
         for (i, sample) in samples.list.iter().enumerate() {
@@ -246,9 +241,10 @@ impl<'a> Run<'a> {
                 .at(&mut self.solver, &mut self.shown.model.system, &outputs)
                 .map_err(RunError::from)?;
             rows.extend(slopes.transpose().iter());
+            states.push(self.shown.model.system.save());
         }
         let rows = DMatrix::from_row_slice(residuals.len(), columns, &rows);
-        Ok((residuals, rows))
+        Ok((residuals, rows, states))
     }
 }
 
@@ -282,7 +278,7 @@ fn difference(model: &Model, points: &Points, samples: &Samples, i: usize) -> [f
 /// # Errors
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
-    Ok(Run::new(source, samples, None)?.all(samples)?.0)
+    Run::new(source, samples, None)?.all(samples)
 }
 
 /// Residuals of a recording in standard deviations.

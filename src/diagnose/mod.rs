@@ -33,6 +33,8 @@ use verdict::Diagnosis;
 const SOUND: f64 = 1.5;
 /// Most effects that are named together.
 const MOST: usize = 3;
+/// Most searches for a further effect; one may make another needless.
+const ROUNDS: usize = 4;
 /// Mean platform error [mm] of the calibrated scenario beyond which a recording is taken for that of another robot.
 const OTHER_ROBOT: f64 = 40.0;
 
@@ -82,7 +84,6 @@ pub fn diagnose(
         own: &own,
         forms: Vec::new(),
         data: &train,
-        guides: &[],
         shared: Arc::default(),
     };
     let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
@@ -95,11 +96,11 @@ pub fn diagnose(
         )));
     }
     let mut last = baseline.clone();
-    for round in 0..MOST {
-        if last.mean_square() < SOUND {
+    for round in 0..ROUNDS {
+        if last.mean_square() < SOUND || last.named.len() == MOST {
             break;
         }
-        let share = |done: f64| told(0.1 + 0.85 * (round as f64 + done) / MOST as f64);
+        let share = |done: f64| told(0.1 + 0.85 * (round as f64 + done) / ROUNDS as f64);
         let Some(next) = last.grown(&forms, &holdout, &share)? else {
             break;
         };

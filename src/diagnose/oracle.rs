@@ -26,7 +26,6 @@ pub fn oracle(
         own: &own,
         forms: Vec::new(),
         data: &train,
-        guides: &[],
         shared: Arc::default(),
     };
     for (id, name, values) in known {
@@ -37,7 +36,7 @@ pub fn oracle(
         trial.forms.push(&form.variant);
         start.extend(values);
     }
-    let start = trial.start(&start).map_err(DiagnoseError::Unfit)?;
+    let start = trial.start(&start, None).map_err(DiagnoseError::Unfit)?;
     let all = 0..start.at.len();
     let fit = trial.fit(start, all, 12);
     let scenario = trial.scenario(&fit.at).map_err(DiagnoseError::Unfit)?;

@@ -39,6 +39,17 @@ pub fn page(d: &Diagnosis, scenario: &str) -> String {
         }
         html += "</table>";
     }
+    if let Some(hidden) = &d.hidden {
+        let _ = write!(html, "<p>{}</p>", escaped(&hidden.words()));
+    }
+    if !d.noticeable.is_empty() {
+        html +=
+            "<h2>What would have been noticed</h2><p>To first order, from these values on:</p><ul>";
+        for n in &d.noticeable {
+            let _ = write!(html, "<li>{}</li>", escaped(&n.words()));
+        }
+        html += "</ul>";
+    }
     if let Some(e) = &d.experiment {
         let _ = write!(
             html,

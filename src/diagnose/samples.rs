@@ -12,9 +12,11 @@ const STILL: f64 = 30.0;
 const BLOCK: usize = 5;
 /// Every so many rows on the way, one is taken.
 const STRIDE: usize = 6;
-/// Rows after motors have stopped in which the robot still relaxes, and every so many rows it is looked at later.
-const RELAXING: usize = 6;
-const QUIET: usize = 4;
+/// A model that remembers passes every so many rows while motors turn, all while the robot relaxes after that, and every so
+/// many later.
+const ON_THE_WAY: usize = 3;
+const RELAXING: usize = 4;
+const QUIET: usize = 8;
 /// Error of the time that a moving row is taken at [s].
 const CLOCK: f64 = 0.01;
 /// Share of the robot's speed that quasi-static states of moving rows may be wrong by, as a time [s].
@@ -118,8 +120,13 @@ impl Samples {
         let still: Vec<bool> = (0..rows).map(|row| rate(row) < limit).collect();
         let noise = noise(&still, tracks);
         let lively = |row: &usize| {
-            let recent = row.saturating_sub(RELAXING)..=*row;
-            row % QUIET == 0 || !still[recent].iter().all(|still| *still)
+            let recent = row.saturating_sub(RELAXING)..*row;
+            let every = match still[*row] {
+                false => ON_THE_WAY,
+                true if still[recent].iter().all(|still| *still) => QUIET,
+                true => 1,
+            };
+            row % every == 0
         };
         let passed = (0..rows).filter(lively);
         let passed = passed.map(|row| motors.time[row]).collect();

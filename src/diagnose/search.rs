@@ -1,8 +1,9 @@
 //! The search for effects: screen all in one linearised pass, fit the best, keep what is worth it, begin again.
 
-use super::forward::{Guide, Shown};
-use super::trial::{DAMPING, Linear, Trial};
+use super::forward::Shown;
+use super::trial::{DAMPING, Linear, Slopes, Trial};
 use crate::identify::{Effect, Robot, Variant};
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -38,11 +39,15 @@ const FITTED: usize = 10;
 const OF_EFFECT: usize = 2;
 /// Times the least promised chi2 beyond which forms are not fitted, but so many are in any case.
 const POOR: f64 = 30.0;
-const AT_LEAST: usize = 6;
+const AT_LEAST: usize = 4;
+/// Share of the present chi2 that is no gain.
+const NO_GAIN: f64 = 0.9;
 /// Forms that are screened at once.
 const SCREENED: usize = 12;
 /// Steps of the fits before the worse are given up, and how many times the least chi2 is too much then.
 const HEATS: [(usize, f64); 3] = [(1, 12.0), (2, 5.0), (8, f64::INFINITY)];
+/// Shares of the way to the linearised optimum at which fits begin that can't begin there.
+const ON_THE_WAY: [f64; 2] = [0.3, 0.08];
 /// Times the present chi2 at which no fit begins.
 const FAR: f64 = 20.0;
 
@@ -50,16 +55,11 @@ const FAR: f64 = 20.0;
 pub fn round(
     base: &Trial<'_>,
     here: &Linear,
-    guides: &[Guide],
     forms: &[Form],
     used: &[usize],
     told: &(dyn Fn(f64) + Sync),
 ) -> Vec<Candidate> {
-    let guided = Trial {
-        guides,
-        ..base.clone()
-    };
-    let with = |form: usize| guided.with(&forms[form].variant);
+    let with = |form: usize| base.with(&forms[form].variant);
     let open: Vec<usize> = (0..forms.len())
         .filter(|f| !used.contains(&forms[*f].effect))
         .collect();
@@ -78,9 +78,10 @@ pub fn round(
     let (slow, fast): (Vec<usize>, Vec<usize>) = open.into_par_iter().partition(remembers);
     let chunks: Vec<&[usize]> = slow.chunks(SCREENED).chain(fast.chunks(SCREENED)).collect();
     let screened = chunks.par_iter().flat_map(|chunk| {
-        let some = screen(&guided, here, forms, chunk);
+        let columns = columns(base, here, forms, chunk);
         tick(chunks.len(), 0.0, 0.3);
-        some
+        let promises = columns.into_iter().filter_map(|c| c.promise(here));
+        promises.collect::<Vec<_>>()
     });
     let mut promises: Vec<Promise> = screened.collect();
     promises.sort_by(|a, b| a.left.total_cmp(&b.left).then(a.form.cmp(&b.form)));
@@ -88,7 +89,8 @@ pub fn round(
     let mut chosen: Vec<Promise> = Vec::new();
     for promise in promises {
         let same = |p: &&Promise| forms[p.form].effect == forms[promise.form].effect;
-        let poor = promise.left > POOR * chosen.first().map_or(f64::INFINITY, |best| best.left);
+        let best = chosen.first().map_or(f64::INFINITY, |best| best.left);
+        let poor = promise.left > (POOR * best).min(NO_GAIN * here.chi2());
         if poor && chosen.len() >= AT_LEAST {
             break;
         }
@@ -126,7 +128,8 @@ pub fn round(
         let chi2 = |c: &Candidate| c.fit.chi2();
         fitted.sort_by(|a, b| chi2(a).total_cmp(&chi2(b)).then(a.form.cmp(&b.form)));
         let least = fitted.first().map_or(0.0, chi2);
-        fitted.retain(|c| chi2(c) <= hopeless * least);
+        let most = (hopeless * least).min(NO_GAIN * here.chi2()).max(least);
+        fitted.retain(|c| chi2(c) <= most);
     }
     fitted
 }
@@ -138,9 +141,23 @@ struct Promise {
     at: Vec<f64>,
 }
 
-/// Forms, linearised: how the present states would change to first order if a form had its typical values, and how that
-/// depends on them.
-fn screen(trial: &Trial<'_>, here: &Linear, forms: &[Form], which: &[usize]) -> Vec<Promise> {
+/// A form, linearised.
+struct Column<'a> {
+    form: usize,
+    trial: Trial<'a>,
+    /// Typical values.
+    at: Vec<f64>,
+    /// How residuals change to first order if the form had its typical values, and how that depends on them.
+    changes: DMatrix<f64>,
+}
+
+/// Forms, linearised at the present states, and the residuals there.
+fn columns<'a>(
+    trial: &Trial<'a>,
+    here: &Linear,
+    forms: &'a [Form],
+    which: &[usize],
+) -> Vec<Column<'a>> {
     let pairs = |form: usize| {
         let added = trial.with(&forms[form].variant);
         let typical = added.typical(&here.at);
@@ -150,55 +167,110 @@ fn screen(trial: &Trial<'_>, here: &Linear, forms: &[Form], which: &[usize]) -> 
         }
         Ok((added, typical, pairs))
     };
-    let (mut each, mut all, mut places) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut each, mut all) = (Vec::new(), Vec::new());
     for &form in which {
-        let Ok::<_, String>((added, typical, pairs)) = pairs(form) else {
-            continue;
-        };
-        places.push(all.len()..all.len() + pairs.len());
-        all.extend(pairs);
-        each.push((form, added, typical));
+        if let Ok::<_, String>((added, typical, pairs)) = pairs(form) {
+            each.push((form, added, typical, all.len()..all.len() + pairs.len()));
+            all.extend(pairs);
+        }
     }
-    let base = trial.scenario(&here.at);
-    let Ok((residuals, slopes)) = base.and_then(|b| trial.slopes(&b, &all, f64::INFINITY)) else {
+    let found = trial
+        .scenario(&here.at)
+        .and_then(|base| trial.slopes(&base, &all, Some(&here.states), f64::INFINITY));
+    let Ok(Slopes { slopes, .. }) = found else {
         // one of them can't be built or has no state: the others can
         return match which.split_at(which.len() / 2) {
             ([], _) => vec![],
-            halves => [halves.0, halves.1]
+            (some, others) => [some, others]
                 .into_iter()
-                .flat_map(|half| screen(trial, here, forms, half))
+                .flat_map(|half| columns(trial, here, forms, half))
                 .collect(),
         };
     };
-    let promise = |((form, added, at), place): ((usize, Trial<'_>, Vec<f64>), Range<usize>)| {
-        let columns = slopes.columns_range(place);
-        let mut full = here.extended(at, &residuals);
-        let (before, measured) = (here.at.len(), residuals.len());
-        let mut rows = full.residuals.rows_mut(0, measured);
-        rows += columns.column(0);
-        let new = columns.ncols() - 1;
-        (full.jacobian.view_mut((0, before), (measured, new))).copy_from(&columns.columns(1, new));
-        let (at, left) = added.step(&full, DAMPING);
-        left.is_finite().then_some(Promise { form, left, at })
+    let column = |(form, trial, at, place)| Column {
+        form,
+        trial,
+        at,
+        changes: slopes.columns_range::<Range<usize>>(place).into_owned(),
     };
-    each.into_iter().zip(places).filter_map(promise).collect()
+    each.into_iter().map(column).collect()
 }
 
-/// Begins at the linearised optimum, or at the typical values, which may be better where the optimum is far.
+impl Column<'_> {
+    /// What would be left with the best values.
+    fn promise(self, here: &Linear) -> Option<Promise> {
+        let (before, (measured, all)) = (here.at.len(), self.changes.shape());
+        let mut full = here.extended(self.at);
+        let mut rows = full.residuals.rows_mut(0, measured);
+        rows += self.changes.column(0);
+        (full.jacobian.view_mut((0, before), (measured, all - 1)))
+            .copy_from(&self.changes.columns(1, all - 1));
+        let (at, left) = self.trial.step(&full, DAMPING);
+        left.is_finite().then_some(Promise {
+            form: self.form,
+            left,
+            at,
+        })
+    }
+
+    /// Share of its typical strength from which the form is noticed: calibrated, it leaves `most` more of chi2 than noise.
+    fn noticed(&self, here: &Linear, most: f64) -> f64 {
+        let mut change = DVector::zeros(here.residuals.len());
+        change
+            .rows_mut(0, self.changes.nrows())
+            .copy_from(&self.changes.column(0));
+        let hidden = here.jacobian.clone().svd(true, true);
+        let best = hidden.solve(&change, 1e-9).expect("it has both bases");
+        let seen = change - &here.jacobian * best;
+        (most / seen.norm_squared()).sqrt()
+    }
+}
+
+/// For each effect, its form that is noticed first, and the value of its first number from which it would be: the
+/// squared residuals grow by `most` whatever the scenario's own numbers are.
+pub fn noticeable(
+    trial: &Trial<'_>,
+    here: &Linear,
+    forms: &[Form],
+    most: f64,
+) -> Vec<(usize, f64)> {
+    let all: Vec<usize> = (0..forms.len()).collect();
+    let chunks: Vec<&[usize]> = all.chunks(SCREENED).collect();
+    let found = chunks.par_iter().flat_map(|chunk| {
+        let columns = columns(trial, here, forms, chunk);
+        let noticed = columns.into_iter().map(|c| (c.form, c.noticed(here, most)));
+        noticed.collect::<Vec<_>>()
+    });
+    let mut found: Vec<(usize, f64)> = found.collect();
+    found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    let mut effects = Vec::new();
+    found.retain(|(form, _)| {
+        let new = !effects.contains(&forms[*form].effect);
+        effects.push(forms[*form].effect);
+        new
+    });
+    found
+}
+
+/// Begins at the linearised optimum, or, where that is too far for its states to be found or worse than nothing, at the
+/// typical values or part of the way.
 fn begin(trial: &Trial<'_>, here: &Linear, promised: &[f64]) -> Option<Linear> {
     let chi2 = here.chi2();
-    let linear = |at: &[f64]| {
-        trial
-            .linear(at, here.at.len()..at.len(), &here.jacobian, FAR * chi2)
-            .ok()
-    };
-    let first = linear(promised);
-    match &first {
-        Some(there) if there.chi2() < chi2 => first,
-        _ => {
-            let second = linear(&trial.typical(&here.at));
-            let starts = first.into_iter().chain(second);
-            starts.min_by(|a, b| a.chi2().total_cmp(&b.chi2()))
+    let (before, all) = (here.at.len(), promised.len());
+    let null = trial.without(&here.at);
+    let starts = [promised.to_vec(), trial.typical(&here.at)]
+        .into_iter()
+        .chain(ON_THE_WAY.map(|share| trial.between(&null, promised, share)));
+    let mut best: Option<Linear> = None;
+    for start in starts {
+        if let Ok(found) = trial.linear(&start, before..all, Some(here), FAR * chi2) {
+            if best.as_ref().is_none_or(|best| found.chi2() < best.chi2()) {
+                best = Some(found);
+            }
+            if best.as_ref().is_some_and(|best| best.chi2() < chi2) {
+                break;
+            }
         }
     }
+    best
 }

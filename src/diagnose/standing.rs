@@ -8,6 +8,7 @@ use super::shared::Shared;
 use super::trial::{Linear, Trial};
 use super::{DiagnoseError, SOUND, unfit};
 use crate::config::Source;
+use crate::identify::Variant;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
@@ -50,11 +51,6 @@ impl<'a> Standing<'a> {
         seed: u64,
     ) -> Result<Self, DiagnoseError> {
         let nominal: Vec<f64> = empty.own.iter().map(|p| p.nominal).collect();
-        let guides = empty.guides(&nominal).map_err(unfit)?;
-        let guided = Trial {
-            guides: &guides,
-            ..empty.clone()
-        };
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let elsewhere: Vec<f64> = (empty.own.iter().zip(&nominal))
             .map(|(p, n)| {
@@ -62,12 +58,11 @@ impl<'a> Standing<'a> {
                 n + 0.3 * (to - n)
             })
             .collect();
-        let fit = |from: &[f64]| {
-            let start = guided.start(from)?;
-            Ok::<_, String>(guided.fit(start, 0..from.len(), STEPS.0))
-        };
-        let (first, second) = rayon::join(|| fit(&nominal), || fit(&elsewhere));
-        let first = first.map_err(unfit)?;
+        let all = 0..nominal.len();
+        let start = empty.start(&nominal, None).map_err(unfit)?;
+        let other = empty.start(&elsewhere, Some(&start));
+        let fit = |start: Linear| empty.fit(start, all.clone(), STEPS.0);
+        let (first, second) = rayon::join(|| fit(start), || other.map(fit));
         let fit = match second {
             Ok(second) if second.chi2() < first.chi2() - 1e-6 * first.chi2() => second,
             _ => first,
@@ -108,9 +103,8 @@ impl<'a> Standing<'a> {
         holdout: &[Samples],
         told: &(dyn Fn(f64) + Sync),
     ) -> Result<Option<Self>, DiagnoseError> {
-        let guides = self.trial.guides(&self.fit.at).map_err(unfit)?;
         let used: Vec<usize> = self.named.iter().map(|(f, _)| forms[*f].effect).collect();
-        let found = search::round(&self.trial, &self.fit, &guides, forms, &used, told);
+        let found = search::round(&self.trial, &self.fit, forms, &used, told);
         let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
             return Ok(None);
         };
@@ -118,17 +112,19 @@ impl<'a> Standing<'a> {
         if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
             return Ok(None);
         }
-        let trial = self.trial.with(&forms[best.form].variant);
-        let scenario = trial.scenario(&best.fit.at).map_err(unfit)?;
+        let mut named = self.named.clone();
+        named.push((best.form, probability));
+        let mut trial = self.trial.with(&forms[best.form].variant);
+        let mut fit = best.fit.clone();
+        drop_needless(&mut trial, &mut fit, &mut named);
+        let scenario = trial.scenario(&fit.at).map_err(unfit)?;
         let scores = Scores::of(&scenario, trial.data, holdout)?;
         if scores.worse_than(&self.scores) {
             return Ok(None);
         }
-        let mut named = self.named.clone();
-        named.push((best.form, probability));
         Ok(Some(Self {
-            tolerant: tolerant(&trial, &best.fit)?,
-            fit: best.fit.clone(),
+            tolerant: tolerant(&trial, &fit)?,
+            fit,
             trial,
             scores,
             named,
@@ -175,20 +171,43 @@ impl<'a> Standing<'a> {
     }
 }
 
+/// Drops effects that were named earlier and that the last one makes needless.
+fn drop_needless(trial: &mut Trial<'_>, fit: &mut Linear, named: &mut Vec<(usize, f64)>) {
+    let measured = count(trial.data);
+    for k in (0..named.len() - 1).rev() {
+        let numbers = |form: &Variant| form.quantities.len();
+        let from = trial.own.len() + trial.forms[..k].iter().map(|f| numbers(f)).sum::<usize>();
+        let gone = from..from + numbers(trial.forms[k]);
+        let mut less = trial.clone();
+        less.forms.remove(k);
+        let mut at = fit.at.clone();
+        at.drain(gone.clone());
+        let Ok(start) = less.start(&at, Some(fit)) else {
+            continue;
+        };
+        let all = 0..at.len();
+        let without = less.fit(start, all, STEPS.1);
+        let scale = (fit.chi2() / measured).max(1.0);
+        let worth = gone.len() as f64 * measured.ln() + ODDS;
+        if without.chi2() - fit.chi2() < worth * scale {
+            (*trial, *fit) = (less, without);
+            named.remove(k);
+        }
+    }
+}
+
 /// A fit continued with the errors that samples share, if there is anything to explain.
 fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<Linear, DiagnoseError> {
     if trial.forms.is_empty() && fit.chi2() < SOUND * count(trial.data) {
         return Ok(fit.clone());
     }
     let source = trial.scenario(&fit.at).map_err(unfit)?;
-    let guides = trial.guides(&fit.at).map_err(unfit)?;
     let shared = Shared::biases(trial.data).with_mesh(&source, trial.data)?;
     let trial = Trial {
-        guides: &guides,
         shared: Arc::new(shared),
         ..trial.clone()
     };
-    let start = trial.start(&fit.at).map_err(unfit)?;
+    let start = trial.start(&fit.at, Some(fit)).map_err(unfit)?;
     Ok(trial.fit(start, 0..fit.at.len(), STEPS.1))
 }
 

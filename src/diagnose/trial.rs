@@ -22,8 +22,6 @@ pub struct Trial<'a> {
     pub forms: Vec<&'a Variant>,
     /// What it is fitted to.
     pub data: &'a [Samples],
-    /// States of another trial of the same samples, one guide a recording; empty if there are none.
-    pub guides: &'a [Guide],
     /// Errors that samples share; residuals and derivatives are whitened of them.
     pub shared: Arc<Shared>,
 }
@@ -37,6 +35,8 @@ pub struct Linear {
     pub residuals: DVector<f64>,
     /// Their derivatives, a column for each value.
     pub jacobian: DMatrix<f64>,
+    /// The states of every recording.
+    pub states: Arc<Vec<Guide>>,
 }
 
 impl Linear {
@@ -45,18 +45,14 @@ impl Linear {
         self.residuals.norm_squared()
     }
 
-    /// The same with further values, which change nothing, and other residuals `measured`.
-    pub fn extended(&self, at: Vec<f64>, measured: &[f64]) -> Self {
-        let mut residuals = self.residuals.clone();
-        residuals
-            .rows_mut(0, measured.len())
-            .copy_from_slice(measured);
-        let more = at.len() - self.at.len();
+    /// The same with further values, which change nothing.
+    pub fn extended(&self, at: Vec<f64>) -> Self {
         let jacobian = self.jacobian.clone();
         Self {
+            jacobian: jacobian.resize_horizontally(at.len(), 0.0),
             at,
-            residuals,
-            jacobian: jacobian.resize_horizontally(self.jacobian.ncols() + more, 0.0),
+            residuals: self.residuals.clone(),
+            states: self.states.clone(),
         }
     }
 }
@@ -73,8 +69,24 @@ struct Coordinate {
     range: (f64, f64),
 }
 
+impl Coordinate {
+    fn value(&self, at: f64) -> f64 {
+        if self.inverse { 1.0 / at } else { at }
+    }
+}
+
 /// Times chi2 that squared residuals are let grow to in a step, before shared errors are taken out.
 const MUCH: f64 = 4.0;
+/// Residuals without priors, derivatives, and the states of every recording.
+pub struct Slopes {
+    /// Whitened residuals.
+    pub residuals: Vec<f64>,
+    /// A column for each number.
+    pub slopes: DMatrix<f64>,
+    /// States from which others are found faster.
+    pub states: Vec<Guide>,
+}
+
 /// Least damping of the steps.
 pub const DAMPING: f64 = 1e-6;
 
@@ -100,6 +112,25 @@ impl<'a> Trial<'a> {
             rest = others;
         }
         Ok(source)
+    }
+
+    /// Values at which the last form is not there, after those of everything before it.
+    pub fn without(&self, before: &[f64]) -> Vec<f64> {
+        let last = self.forms.last().into_iter();
+        let last = last.flat_map(|form| &form.quantities).map(|q| q.null);
+        before.iter().copied().chain(last).collect()
+    }
+
+    /// Values on the way from some to others, at a share of the way.
+    pub fn between(&self, from: &[f64], to: &[f64], share: f64) -> Vec<f64> {
+        let between = |(j, (from, to)): (usize, (&f64, &f64))| self.part(j, (*from, *to), share);
+        from.iter().zip(to).enumerate().map(between).collect()
+    }
+
+    /// Value `j` at a share of the way between two, as the search counts it.
+    pub fn part(&self, j: usize, (from, to): (f64, f64), share: f64) -> f64 {
+        let (a, b) = (self.coordinate(j, from), self.coordinate(j, to));
+        a.value(a.at + share * (b.at - a.at))
     }
 
     /// Values at which the last form is plainly there, after those of everything before it.
@@ -174,24 +205,8 @@ impl<'a> Trial<'a> {
         self.own.iter().zip(at).filter_map(prior).collect()
     }
 
-    /// States of all samples.
-    ///
-    /// # Errors
-    /// In words, if a sample has no steady state.
-    pub fn guides(&self, at: &[f64]) -> Result<Vec<Guide>, String> {
-        let source = self.scenario(at)?;
-        let of_recording = |(r, samples): (usize, &Samples)| {
-            Ok(Run::new(&source, samples, self.guides.get(r))?
-                .all(samples)?
-                .1)
-        };
-        let each = self.data.par_iter().enumerate().map(of_recording);
-        each.collect::<Result<_, CompareError>>()
-            .map_err(|e| e.to_string())
-    }
-
-    /// Residuals and derivatives by the values `fresh`; those by others are as in `known`, which has a column for each
-    /// value.
+    /// Residuals and derivatives by the values `fresh`; those by others are as in `near`, from whose states these are
+    /// found. Without, it takes as long as it takes.
     ///
     /// # Errors
     /// In words, if a sample has no steady state or a singular one, or if it has residuals beyond `most`, as
@@ -200,16 +215,22 @@ impl<'a> Trial<'a> {
         &self,
         at: &[f64],
         fresh: Range<usize>,
-        known: &DMatrix<f64>,
+        near: Option<&Linear>,
         most: f64,
     ) -> Result<Linear, String> {
         let source = self.scenario(at)?;
         let pairs = fresh.clone().map(|j| self.pair(at, j));
         let pairs = pairs.collect::<Result<Vec<_>, String>>()?;
-        let (mut residuals, slopes) = self.slopes(&source, &pairs, most)?;
+        let guides = near.map(|near| &near.states[..]);
+        let Slopes {
+            mut residuals,
+            slopes,
+            states,
+        } = self.slopes(&source, &pairs, guides, most)?;
         let measured = residuals.len();
         residuals.extend(self.priors(at));
-        let mut jacobian = known.clone().resize(residuals.len(), at.len(), 0.0);
+        let known = near.map_or(DMatrix::zeros(0, 0), |near| near.jacobian.clone());
+        let mut jacobian = known.resize(residuals.len(), at.len(), 0.0);
         jacobian
             .view_mut((0, fresh.start), slopes.shape())
             .copy_from(&slopes);
@@ -224,6 +245,7 @@ impl<'a> Trial<'a> {
             at: at.to_vec(),
             residuals: DVector::from_vec(residuals),
             jacobian,
+            states: Arc::new(states),
         })
     }
 
@@ -247,7 +269,7 @@ impl<'a> Trial<'a> {
     }
 
     /// Residuals of a scenario, priors left out, and derivatives by numbers of which `pairs` has the steps and the
-    /// scenarios with larger and smaller ones.
+    /// scenarios with larger and smaller ones. States are found from those of `guides`.
     ///
     /// # Errors
     /// In words, if a sample has no steady state or a singular one, or if the squared residuals of a recording are more than
@@ -256,10 +278,11 @@ impl<'a> Trial<'a> {
         &self,
         source: &Source,
         pairs: &[(f64, [Source; 2])],
+        guides: Option<&[Guide]>,
         most: f64,
-    ) -> Result<(Vec<f64>, DMatrix<f64>), String> {
+    ) -> Result<Slopes, String> {
         let of_recording = |(r, samples): (usize, &Samples)| {
-            let mut run = Run::new(source, samples, self.guides.get(r))?;
+            let mut run = Run::new(source, samples, guides.map(|guides| &guides[r]))?;
             let shown = |(step, [a, b]): &(f64, [Source; 2])| {
                 Ok((*step, [Shown::new(a, samples)?, Shown::new(b, samples)?]))
             };
@@ -271,10 +294,10 @@ impl<'a> Trial<'a> {
         let each = each
             .collect::<Result<Vec<_>, CompareError>>()
             .map_err(|e| e.to_string())?;
-        let rows = each.iter().map(|(r, _)| r.len()).sum();
+        let rows = each.iter().map(|(r, ..)| r.len()).sum();
         let mut all = DMatrix::zeros(rows, 1 + pairs.len());
         let mut row = 0;
-        for (residuals, slopes) in &each {
+        for (residuals, slopes, _) in &each {
             let mut block = all.rows_mut(row, residuals.len());
             block.column_mut(0).copy_from_slice(residuals);
             block.columns_mut(1, pairs.len()).copy_from(slopes);
@@ -282,7 +305,11 @@ impl<'a> Trial<'a> {
         }
         self.shared.whiten(&mut all);
         let residuals = all.column(0).as_slice().to_vec();
-        Ok((residuals, all.remove_column(0)))
+        Ok(Slopes {
+            residuals,
+            slopes: all.remove_column(0),
+            states: each.into_iter().map(|(.., states)| states).collect(),
+        })
     }
 
     /// The values that make the linearised residuals least, within the ranges, and what is left of chi2 then.
@@ -305,8 +332,7 @@ impl<'a> Trial<'a> {
         let change = bounded(&damped, &slope, &along.iter().map(room).collect::<Vec<_>>());
         let left = linear.chi2() + 2.0 * slope.dot(&change) + change.dot(&(&normal * &change));
         let moved = |(c, change): (&Coordinate, &f64)| {
-            let to = (c.at + change * c.scale).clamp(c.range.0, c.range.1);
-            if c.inverse { 1.0 / to } else { to }
+            c.value((c.at + change * c.scale).clamp(c.range.0, c.range.1))
         };
         let to = along.iter().zip(&change).map(moved).collect();
         (to, if left < 0.0 { 0.0 } else { left })
@@ -332,8 +358,8 @@ impl<'a> Trial<'a> {
     ///
     /// # Errors
     /// In words, if a sample has no steady state or a singular one.
-    pub fn start(&self, at: &[f64]) -> Result<Linear, String> {
-        self.linear(at, 0..at.len(), &DMatrix::zeros(0, 0), f64::INFINITY)
+    pub fn start(&self, at: &[f64], near: Option<&Linear>) -> Result<Linear, String> {
+        self.linear(at, 0..at.len(), near, f64::INFINITY)
     }
 
     /// Fits all values from `here`, in at most `iterations` steps, after each of which derivatives by `fresh` are
@@ -349,7 +375,7 @@ impl<'a> Trial<'a> {
                 if here.chi2() - promised < 0.2 + 1e-5 * here.chi2() {
                     break;
                 }
-                match self.linear(&there, fresh.clone(), &here.jacobian, most) {
+                match self.linear(&there, fresh.clone(), Some(&here), most) {
                     Ok(next) if next.chi2() < here.chi2() => {
                         better = Some(next);
                         break;

@@ -52,6 +52,10 @@ pub struct Diagnosis {
     pub augmented: Fitted,
     /// Share of the mismatch, beyond noise, that the named effects explain.
     pub explained: f64,
+    /// How much of the mismatch the calibration had hidden before the effects were named.
+    pub hidden: Option<Hidden>,
+    /// If nothing is named: from which value each effect would have been.
+    pub noticeable: Vec<Noticeable>,
     /// Calibrated numbers that ended where they should not be.
     pub alarms: Vec<String>,
     /// What is odd about the recordings.
@@ -77,6 +81,65 @@ pub struct Named {
     pub probability: f64,
     /// Root mean square that the platform's position error falls by when it is added, on the training data [mm].
     pub gain_mm: f64,
+}
+
+/// What a calibration hides.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Hidden {
+    /// Share of the named effects' mark that the scenario's own numbers took up.
+    pub share: f64,
+    /// The number that took most, over what was known of it.
+    pub parameter: String,
+    /// Its value without and with the effects.
+    pub values: [f64; 2],
+    /// Its unit.
+    pub unit: String,
+}
+
+impl Hidden {
+    /// In a sentence.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let [without, with] = self.values;
+        format!(
+            "The calibration had hidden {:.0} % of it, most in the {}: {without:.4} {unit} without, {with:.4} {unit} with what \
+             was left out.",
+            100.0 * self.share,
+            self.parameter,
+            unit = self.unit
+        )
+    }
+}
+
+/// From where on an effect would have been noticed.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Noticeable {
+    /// Its identifier.
+    pub id: String,
+    /// Its form that shows first.
+    pub form: String,
+    /// A number of it.
+    pub parameter: String,
+    /// Value from which it is noticed; to first order.
+    pub value: f64,
+    /// Unit.
+    pub unit: String,
+    /// Whether the value is one that the effect may have.
+    pub possible: bool,
+}
+
+impl Noticeable {
+    /// In a few words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self.possible {
+            true => format!(
+                "{} at {} = {:.3} {}",
+                self.id, self.parameter, self.value, self.unit
+            ),
+            false => format!("{} never", self.id),
+        }
+    }
 }
 
 /// A number and its interval.
