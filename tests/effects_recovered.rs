@@ -116,7 +116,7 @@ fn the_numbers_of_every_effect_are_found_in_a_recording_made_with_it() {
         };
         let at = |values: &[f64]| {
             trial
-                .start(values)
+                .start(values, None)
                 .unwrap_or_else(|e| panic!("{what}: {e}"))
         };
         let null: Vec<f64> = form.quantities.iter().map(|q| q.null).collect();
@@ -141,7 +141,10 @@ fn the_numbers_of_every_effect_are_found_in_a_recording_made_with_it() {
             } else {
                 0.07
             };
-            let size = truth.abs().max(q.typical.abs());
+            let size = truth
+                .abs()
+                .max(q.typical.abs())
+                .max(0.05 * (q.range.1 - q.range.0));
             assert!(
                 (found - truth).abs() < share * size,
                 "{what}, {}: {found} for {truth}",

@@ -13,10 +13,10 @@ use nalgebra::DMatrix;
 pub const CHANNELS: usize = 12;
 /// What no model is asked to explain, since meshes differ by as much: position [m], rotation [rad].
 pub const NUMERICS: (f64, f64) = (3e-5, 3e-4);
-/// Newton iterations a sample may take on average; a model that takes more is no candidate, since its search never ends.
-const ITERATIONS: usize = 30;
-/// Iterations that a failure is taken for.
-const FAILURE: usize = 150;
+/// Evaluations a sample may take on average; a model that takes more is no candidate, since its search never ends.
+const EVALUATIONS: usize = 500;
+/// Evaluations that a failure is taken for.
+const FAILURE: usize = 1500;
 /// Smallest share of the way from one sample to the next that is solved at once, for the same reason.
 const SMALLEST: f64 = 1.0 / 8.0;
 /// A scenario's model under the motor angles of a recording, and its markers.
@@ -70,7 +70,7 @@ pub struct Run<'a> {
     solver: SteadySolver,
     /// The state at rest.
     rest: Saved,
-    /// Newton iterations that are left.
+    /// Evaluations that are left.
     left: usize,
     /// Whether rows between samples must be passed, since a law remembers them.
     remembers: bool,
@@ -91,7 +91,7 @@ impl<'a> Run<'a> {
         guide: Option<&'a Guide>,
     ) -> Result<Self, CompareError> {
         let (left, smallest) = match guide {
-            Some(_) => (ITERATIONS * samples.list.len(), SMALLEST),
+            Some(_) => (EVALUATIONS * samples.list.len(), SMALLEST),
             None => (usize::MAX / 2, 0.0),
         };
         let mut shown = Shown::new(source, samples)?;
@@ -119,7 +119,7 @@ impl<'a> Run<'a> {
     fn remember(&mut self, remembers: bool, samples: &Samples) {
         if remembers && !self.remembers {
             self.remembers = true;
-            self.left += ITERATIONS * samples.passed.len();
+            self.left += EVALUATIONS * samples.passed.len();
         }
     }
 
@@ -127,7 +127,7 @@ impl<'a> Run<'a> {
     fn pass(&mut self, time: f64) -> Result<(), CompareError> {
         let system = &mut self.shown.model.system;
         let report = self.solver.advance(system, time).map_err(RunError::from)?;
-        self.spend(report.iterations, time)
+        self.spend(report.evaluations, time)
     }
 
     /// Goes to sample `i`, by way of the guide's state if there is one.
@@ -142,9 +142,9 @@ impl<'a> Run<'a> {
         let mut last = None;
         for start in starts {
             let system = &mut self.shown.model.system;
-            system.pose_as(&start);
+            self.solver.pose_as(system, &start);
             match self.solver.advance(system, time) {
-                Ok(report) => return self.spend(report.iterations, time),
+                Ok(report) => return self.spend(report.evaluations, time),
                 Err(e) => last = Some(e),
             }
             system.restore(&before);
@@ -153,10 +153,10 @@ impl<'a> Run<'a> {
         Err(RunError::from(last.expect("there is a start")).into())
     }
 
-    fn spend(&mut self, iterations: usize, time: f64) -> Result<(), CompareError> {
-        self.left = self.left.checked_sub(iterations).ok_or_else(|| {
+    fn spend(&mut self, evaluations: usize, time: f64) -> Result<(), CompareError> {
+        self.left = self.left.checked_sub(evaluations).ok_or_else(|| {
             CompareError::Unfit(format!(
-                "up to t = {time:.2} s its steady states took more than {ITERATIONS} Newton iterations each"
+                "up to t = {time:.2} s its steady states took more than {EVALUATIONS} evaluations each"
             ))
         })?;
         Ok(())

@@ -14,7 +14,7 @@ const BLOCK: usize = 5;
 const STRIDE: usize = 6;
 /// A model that remembers passes every so many rows while motors turn, all while the robot relaxes after that, and every so
 /// many later.
-const ON_THE_WAY: usize = 3;
+const ON_THE_WAY: usize = 2;
 const RELAXING: usize = 4;
 const QUIET: usize = 8;
 /// Error of the time that a moving row is taken at [s].
@@ -126,7 +126,7 @@ impl Samples {
                 true if still[recent].iter().all(|still| *still) => QUIET,
                 true => 1,
             };
-            row % every == 0
+            row.is_multiple_of(every)
         };
         let passed = (0..rows).filter(lively);
         let passed = passed.map(|row| motors.time[row]).collect();

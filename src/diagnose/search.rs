@@ -30,6 +30,8 @@ pub fn forms(effects: &[Box<dyn Effect>], robot: &Robot) -> Vec<Form> {
 pub struct Candidate {
     /// Which form.
     pub form: usize,
+    /// Chi2 that the linearised model promised.
+    promised: f64,
     /// The fit: values of the scenario, of the forms before, and of this one.
     pub fit: Linear,
 }
@@ -46,6 +48,8 @@ const NO_GAIN: f64 = 0.9;
 const SCREENED: usize = 12;
 /// Steps of the fits before the worse are given up, and how many times the least chi2 is too much then.
 const HEATS: [(usize, f64); 3] = [(1, 12.0), (2, 5.0), (8, f64::INFINITY)];
+/// Times the least chi2 that a form is let go on for which promised no more.
+const SLOW: f64 = 3.0;
 /// Shares of the way to the linearised optimum at which fits begin that can't begin there.
 const ON_THE_WAY: [f64; 2] = [0.3, 0.08];
 /// Times the present chi2 at which no fit begins.
@@ -104,6 +108,7 @@ pub fn round(
         tick(chosen.len(), 0.3, 0.5);
         begun.map(|fit| Candidate {
             form: promise.form,
+            promised: promise.left,
             fit,
         })
     });
@@ -129,7 +134,9 @@ pub fn round(
         fitted.sort_by(|a, b| chi2(a).total_cmp(&chi2(b)).then(a.form.cmp(&b.form)));
         let least = fitted.first().map_or(0.0, chi2);
         let most = (hopeless * least).min(NO_GAIN * here.chi2()).max(least);
-        fitted.retain(|c| chi2(c) <= most);
+        // some begin far from where they would end
+        let promising = hopeless.min(SLOW) * least;
+        fitted.retain(|c| chi2(c) <= most || c.promised <= promising);
     }
     fitted
 }

@@ -222,13 +222,14 @@ impl System {
         }
     }
 
-    /// Takes the poses, rates and time of a state that a system of the same bodies has saved; what rod laws remember
-    /// stays. A solver that goes on from there has a good guess.
-    pub fn pose_as(&mut self, saved: &Saved) {
+    /// Takes the poses, rates and time of a state that a system of the same bodies has saved, with what is held at its own
+    /// boundary values of that time; what rod laws remember stays.
+    pub(crate) fn pose_as(&mut self, saved: &Saved) {
         self.time = saved.time;
         for (group, state) in self.groups.iter_mut().zip(&saved.states) {
             group.bodies.state.pose_as(state);
         }
+        self.apply_boundaries();
     }
 
     /// Starts the clock at `time` \[s\] without moving anything.

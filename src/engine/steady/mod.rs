@@ -11,7 +11,7 @@ mod sensitivity;
 mod tangent;
 mod unknowns;
 
-use crate::system::System;
+use crate::system::{Saved, System};
 use path::{Path, Poses};
 pub use sensitivity::Sensitivities;
 use tangent::Tangent;
@@ -135,6 +135,13 @@ impl SteadySolver {
             loads: vec![0.0; size],
             change: vec![0.0; size],
         })
+    }
+
+    /// Poses the system as a state that another of the same bodies has saved, with what is held at its own boundary values
+    /// of that time; what rod laws remember stays. [`Self::advance`] then has a good guess.
+    pub fn pose_as(&mut self, system: &mut System, saved: &Saved) {
+        system.pose_as(saved);
+        self.moved = None;
     }
 
     /// Moves the system to its steady state at `time` \[s\], from its present state. On failure the system is left
