@@ -31,7 +31,8 @@ impl Scores {
         holdout: &[Samples],
     ) -> Result<Self, CompareError> {
         let score = |samples: &Samples| -> Result<Score, CompareError> {
-            let apart = differences(source, samples)?;
+            let apart = differences(source, samples)
+                .map_err(|e| CompareError::Unfit(format!("recording `{}`: {e}", samples.name)))?;
             let white = whitened(&apart, samples);
             Ok(Score {
                 name: samples.name.clone(),

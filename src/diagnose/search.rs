@@ -6,6 +6,7 @@ use crate::identify::{Effect, Robot, Variant};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::ops::Range;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// An effect in one of its forms.
 pub struct Form {
@@ -63,33 +64,81 @@ pub fn round(
     used: &[usize],
     told: &(dyn Fn(f64) + Sync),
 ) -> Vec<Candidate> {
-    let with = |form: usize| base.with(&forms[form].variant);
-    let open: Vec<usize> = (0..forms.len())
-        .filter(|f| !used.contains(&forms[*f].effect))
-        .collect();
-    let done = std::sync::atomic::AtomicUsize::new(0);
-    let tick = |all: usize, from: f64, to: f64| {
-        let done = done.fetch_add(1, std::sync::atomic::Ordering::Relaxed) + 1;
-        told(from + (to - from) * done as f64 / all as f64);
-    };
+    let open = (0..forms.len()).filter(|f| !used.contains(&forms[*f].effect));
+    let promises = screen(base, here, forms, open.collect(), &|share| {
+        told(0.3 * share)
+    });
+    let chosen = shortlist(promises, here, forms);
+    let told = Counted::new(told, 0.3, 0.5);
+    let begun = chosen.par_iter().filter_map(|promise| {
+        let trial = base.with(&forms[promise.form].variant);
+        let begun = begin(&trial, here, &promise.at);
+        told.done(chosen.len());
+        begun.map(|fit| Candidate {
+            form: promise.form,
+            promised: promise.left,
+            fit,
+        })
+    });
+    heats(base, here, forms, begun.collect(), &told)
+}
+
+/// Progress of things done side by side, between two shares of the whole.
+struct Counted<'a> {
+    told: &'a (dyn Fn(f64) + Sync),
+    from: f64,
+    to: f64,
+    done: AtomicUsize,
+}
+
+impl<'a> Counted<'a> {
+    fn new(told: &'a (dyn Fn(f64) + Sync), from: f64, to: f64) -> Self {
+        Self {
+            told,
+            from,
+            to,
+            done: AtomicUsize::new(0),
+        }
+    }
+
+    /// One more of `all` is done.
+    fn done(&self, all: usize) {
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        (self.told)(self.from + (self.to - self.from) * done as f64 / all as f64);
+    }
+}
+
+/// What forms promise to first order, the best first.
+fn screen(
+    base: &Trial<'_>,
+    here: &Linear,
+    forms: &[Form],
+    open: Vec<usize>,
+    told: &(dyn Fn(f64) + Sync),
+) -> Vec<Promise> {
     // those that remember take more states, which others need not pay for
     let remembers = |form: &usize| {
-        let trial = with(*form);
+        let trial = base.with(&forms[*form].variant);
         let typical = trial.scenario(&trial.typical(&here.at));
         let shown = typical.map(|source| Shown::new(&source, &trial.data[0]));
         matches!(shown, Ok(Ok(shown)) if shown.remembers())
     };
     let (slow, fast): (Vec<usize>, Vec<usize>) = open.into_par_iter().partition(remembers);
     let chunks: Vec<&[usize]> = slow.chunks(SCREENED).chain(fast.chunks(SCREENED)).collect();
-    let screened = chunks.par_iter().flat_map(|chunk| {
+    let told = Counted::new(told, 0.0, 1.0);
+    let promises = chunks.par_iter().flat_map(|chunk| {
         let columns = columns(base, here, forms, chunk);
-        tick(chunks.len(), 0.0, 0.3);
+        told.done(chunks.len());
         let promises = columns.into_iter().filter_map(|c| c.promise(here));
         promises.collect::<Vec<_>>()
     });
-    let mut promises: Vec<Promise> = screened.collect();
+    let mut promises: Vec<Promise> = promises.collect();
     promises.sort_by(|a, b| a.left.total_cmp(&b.left).then(a.form.cmp(&b.form)));
-    // the best forms of each of the best effects
+    promises
+}
+
+/// The best forms of each of the best effects.
+fn shortlist(promises: Vec<Promise>, here: &Linear, forms: &[Form]) -> Vec<Promise> {
     let mut chosen: Vec<Promise> = Vec::new();
     for promise in promises {
         let same = |p: &&Promise| forms[p.form].effect == forms[promise.form].effect;
@@ -102,43 +151,42 @@ pub fn round(
             chosen.push(promise);
         }
     }
-    done.store(0, std::sync::atomic::Ordering::Relaxed);
-    let begun = chosen.par_iter().filter_map(|promise| {
-        let begun = begin(&with(promise.form), here, &promise.at);
-        tick(chosen.len(), 0.3, 0.5);
-        begun.map(|fit| Candidate {
-            form: promise.form,
-            promised: promise.left,
-            fit,
-        })
-    });
-    let mut fitted: Vec<Candidate> = begun.collect();
+    chosen
+}
+
+/// Fits in heats, after each of which the hopeless are given up.
+fn heats(
+    base: &Trial<'_>,
+    here: &Linear,
+    forms: &[Form],
+    mut candidates: Vec<Candidate>,
+    told: &Counted<'_>,
+) -> Vec<Candidate> {
     for (heat, (steps, hopeless)) in HEATS.into_iter().enumerate() {
-        done.store(0, std::sync::atomic::Ordering::Relaxed);
-        let all = fitted.len();
+        let from = told.to + heat as f64 / 6.0;
+        let (told, all) = (
+            Counted::new(told.told, from, from + 1.0 / 6.0),
+            candidates.len(),
+        );
         let fit = |candidate: Candidate| {
-            let trial = with(candidate.form);
             // what other numbers do changes little at first
-            let fresh = match heat {
-                0 => here.at.len(),
-                _ => 0,
-            };
-            let fresh = fresh..candidate.fit.at.len();
+            let known = if heat == 0 { here.at.len() } else { 0 };
+            let fresh = known..candidate.fit.at.len();
+            let trial = base.with(&forms[candidate.form].variant);
             let fit = trial.fit(candidate.fit, fresh, steps);
-            let from = 0.5 + heat as f64 / 6.0;
-            tick(all, from, from + 1.0 / 6.0);
+            told.done(all);
             Candidate { fit, ..candidate }
         };
-        fitted = fitted.into_par_iter().map(fit).collect();
+        candidates = candidates.into_par_iter().map(fit).collect();
         let chi2 = |c: &Candidate| c.fit.chi2();
-        fitted.sort_by(|a, b| chi2(a).total_cmp(&chi2(b)).then(a.form.cmp(&b.form)));
-        let least = fitted.first().map_or(0.0, chi2);
+        candidates.sort_by(|a, b| chi2(a).total_cmp(&chi2(b)).then(a.form.cmp(&b.form)));
+        let least = candidates.first().map_or(0.0, chi2);
         let most = (hopeless * least).min(NO_GAIN * here.chi2()).max(least);
         // some begin far from where they would end
         let promising = hopeless.min(SLOW) * least;
-        fitted.retain(|c| chi2(c) <= most || c.promised <= promising);
+        candidates.retain(|c| chi2(c) <= most || c.promised <= promising);
     }
-    fitted
+    candidates
 }
 
 /// What a form promises: what would be left of chi2 by the linearised model, and at which values.
@@ -158,7 +206,7 @@ struct Column<'a> {
     changes: DMatrix<f64>,
 }
 
-/// Forms, linearised at the present states, and the residuals there.
+/// Forms, linearised at the present states.
 fn columns<'a>(
     trial: &Trial<'a>,
     here: &Linear,

@@ -118,7 +118,10 @@ impl<'a> Standing<'a> {
         let mut fit = best.fit.clone();
         drop_needless(&mut trial, &mut fit, &mut named);
         let scenario = trial.scenario(&fit.at).map_err(unfit)?;
-        let scores = Scores::of(&scenario, trial.data, holdout)?;
+        // a model that can't follow a recording held out is worse there
+        let Ok(scores) = Scores::of(&scenario, trial.data, holdout) else {
+            return Ok(None);
+        };
         if scores.worse_than(&self.scores) {
             return Ok(None);
         }
@@ -202,7 +205,9 @@ fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<Linear, DiagnoseError> {
         return Ok(fit.clone());
     }
     let source = trial.scenario(&fit.at).map_err(unfit)?;
-    let shared = Shared::biases(trial.data).with_mesh(&source, trial.data)?;
+    // where the finer mesh has no steady states, its difference isn't known
+    let shared = Shared::biases(trial.data).with_mesh(&source, trial.data);
+    let shared = shared.unwrap_or_else(|_| Shared::biases(trial.data));
     let trial = Trial {
         shared: Arc::new(shared),
         ..trial.clone()
