@@ -101,10 +101,9 @@ fn show(d: &Diagnosis) -> String {
         text += &h.words();
         text += "\n";
     }
-    let (seen, never): (Vec<_>, Vec<_>) = d.noticeable.iter().partition(|n| n.possible);
-    if !seen.is_empty() {
-        let words = |some: &[&Noticeable]| some.iter().map(|n| n.words()).collect::<Vec<_>>();
-        let all = [words(&seen), words(&never)].concat().join("\n  ");
+    if !d.noticeable.is_empty() {
+        let all = d.noticeable.iter().map(Noticeable::words);
+        let all = all.collect::<Vec<_>>().join("\n  ");
         text +=
             &format!("from where on effects would have been noticed, to first order:\n  {all}\n");
     }

@@ -13,8 +13,9 @@ mod simulated;
 pub use film::film;
 pub use made::make_recording;
 pub use mismatch::{BodyMismatch, Comparison, Worst};
+pub(crate) use observed::TABLE;
+pub use observed::motor_inputs;
 pub use observed::{Observed, SampleKind};
-pub(crate) use observed::{TABLE, motor_inputs};
 pub use simulated::{Mode, Simulated};
 pub(crate) use simulated::{markers, pose};
 

@@ -136,7 +136,10 @@ impl Observed {
 }
 
 /// Inputs `motor_1` to `motor_4` of angles \[rad\] at times \[s\].
-pub(crate) fn motor_inputs(times: &[f64], angles: &[[f64; 4]]) -> Result<Inputs, String> {
+///
+/// # Errors
+/// In words, if times don't rise, or a number is not finite.
+pub fn motor_inputs(times: &[f64], angles: &[[f64; 4]]) -> Result<Inputs, String> {
     let channel = |i: usize| {
         let values = angles.iter().map(|a| a[i]).collect();
         let series = Series::new(times.to_vec(), values)?;

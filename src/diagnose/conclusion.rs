@@ -192,8 +192,7 @@ fn noticeable(
             id: effects[*effect].id().to_owned(),
             form: variant.name.clone(),
             parameter: q.name.clone(),
-            possible: q.range.0 <= value && value <= q.range.1,
-            value,
+            value: Some(value).filter(|v| q.range.0 <= *v && *v <= q.range.1),
             unit: q.unit.to_owned(),
         })
     };

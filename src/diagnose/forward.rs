@@ -4,7 +4,7 @@ use super::samples::{Phase, Sample, Samples};
 use crate::compare::{CompareError, markers, pose};
 use crate::config::Source;
 use crate::engine::scenario::{Datum, Marker};
-use crate::engine::system::Saved;
+use crate::engine::system::{Saved, System};
 use crate::engine::{Model, RunError, Sensitivities, SteadySolver};
 use crate::recordings::Pose;
 use nalgebra::DMatrix;
@@ -19,6 +19,7 @@ const EVALUATIONS: usize = 500;
 const FAILURE: usize = 1500;
 /// Smallest share of the way from one sample to the next that is solved at once, for the same reason.
 const SMALLEST: f64 = 1.0 / 8.0;
+
 /// A scenario's model under the motor angles of a recording, and its markers.
 pub struct Shown {
     model: Model,
@@ -123,15 +124,26 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Goes to a time on the way to a sample.
-    fn pass(&mut self, time: f64) -> Result<(), CompareError> {
-        let system = &mut self.shown.model.system;
-        let report = self.solver.advance(system, time).map_err(RunError::from)?;
-        self.spend(report.evaluations, time)
+    /// Goes to sample `i`, past all that must be passed on the way there, at each of which `passed` is called.
+    fn go(
+        &mut self,
+        samples: &Samples,
+        i: usize,
+        mut passed: impl FnMut(&mut SteadySolver, &mut System) -> Result<(), RunError>,
+    ) -> Result<(), CompareError> {
+        if self.remembers {
+            for time in samples.on_the_way(i) {
+                let system = &mut self.shown.model.system;
+                let report = self.solver.advance(system, *time).map_err(RunError::from)?;
+                self.spend(report.evaluations, *time)?;
+                passed(&mut self.solver, &mut self.shown.model.system)?;
+            }
+        }
+        self.arrive(samples, i)
     }
 
-    /// Goes to sample `i`, by way of the guide's state if there is one.
-    fn go(&mut self, samples: &Samples, i: usize) -> Result<(), CompareError> {
+    /// Goes to sample `i` at once, by way of the guide's state if there is one.
+    fn arrive(&mut self, samples: &Samples, i: usize) -> Result<(), CompareError> {
         let time = samples.list[i].time;
         let before = self.shown.model.system.save();
         // from the guide's state, or from the sample before, or from rest
@@ -169,15 +181,7 @@ impl<'a> Run<'a> {
     fn all(&mut self, samples: &Samples) -> Result<Vec<f64>, CompareError> {
         let mut apart = Vec::new();
         for i in 0..samples.list.len() {
-            let way = if self.remembers {
-                samples.on_the_way(i)
-            } else {
-                &[]
-            };
-            for time in way {
-                self.pass(*time)?;
-            }
-            self.go(samples, i)?;
+            self.go(samples, i, |_, _| Ok(()))?;
             let Shown { model, points } = &self.shown;
             apart.extend(difference(model, points, samples, i));
         }
@@ -207,19 +211,11 @@ impl<'a> Run<'a> {
         let mut rows: Vec<f64> = Vec::new();
         let mut left = most;
         for (i, sample) in samples.list.iter().enumerate() {
-            let way = if self.remembers {
-                samples.on_the_way(i)
-            } else {
-                &[]
-            };
-            for time in way {
-                self.pass(*time)?;
-                // all models remember
-                let system = &mut self.shown.model.system;
-                let nothing = sensitivities.at(&mut self.solver, system, &|_| vec![]);
-                nothing.map_err(RunError::from)?;
-            }
-            self.go(samples, i)?;
+            // the models with larger and smaller numbers remember, too
+            self.go(samples, i, |solver, system| {
+                sensitivities.at(solver, system, &|_| vec![])?;
+                Ok(())
+            })?;
             let shown = &self.shown;
             let white = sample.whiten(difference(&shown.model, &shown.points, samples, i));
             left -= white.iter().map(|r| r * r).sum::<f64>();

@@ -116,6 +116,22 @@ fn screen(
     open: Vec<usize>,
     told: &(dyn Fn(f64) + Sync),
 ) -> Vec<Promise> {
+    let mut promises: Vec<Promise> = linearised(base, here, forms, open, told)
+        .into_par_iter()
+        .filter_map(|column| column.promise(here))
+        .collect();
+    promises.sort_by(|a, b| a.left.total_cmp(&b.left).then(a.form.cmp(&b.form)));
+    promises
+}
+
+/// Forms, linearised at the present states, as many at once as share the states well.
+fn linearised<'a>(
+    base: &Trial<'a>,
+    here: &Linear,
+    forms: &'a [Form],
+    open: Vec<usize>,
+    told: &(dyn Fn(f64) + Sync),
+) -> Vec<Column<'a>> {
     // those that remember take more states, which others need not pay for
     let remembers = |form: &usize| {
         let trial = base.with(&forms[*form].variant);
@@ -126,15 +142,12 @@ fn screen(
     let (slow, fast): (Vec<usize>, Vec<usize>) = open.into_par_iter().partition(remembers);
     let chunks: Vec<&[usize]> = slow.chunks(SCREENED).chain(fast.chunks(SCREENED)).collect();
     let told = Counted::new(told, 0.0, 1.0);
-    let promises = chunks.par_iter().flat_map(|chunk| {
+    let columns = chunks.par_iter().flat_map(|chunk| {
         let columns = columns(base, here, forms, chunk);
         told.done(chunks.len());
-        let promises = columns.into_iter().filter_map(|c| c.promise(here));
-        promises.collect::<Vec<_>>()
+        columns
     });
-    let mut promises: Vec<Promise> = promises.collect();
-    promises.sort_by(|a, b| a.left.total_cmp(&b.left).then(a.form.cmp(&b.form)));
-    promises
+    columns.collect()
 }
 
 /// The best forms of each of the best effects.
@@ -213,10 +226,11 @@ fn columns<'a>(
     forms: &'a [Form],
     which: &[usize],
 ) -> Vec<Column<'a>> {
+    let base = || trial.scenario(&here.at);
     let pairs = |form: usize| {
         let added = trial.with(&forms[form].variant);
         let typical = added.typical(&here.at);
-        let mut pairs = vec![(0.5, [added.scenario(&typical)?, trial.scenario(&here.at)?])];
+        let mut pairs = vec![(0.5, [added.scenario(&typical)?, base()?])];
         for j in here.at.len()..typical.len() {
             pairs.push(added.pair(&typical, j)?);
         }
@@ -229,9 +243,8 @@ fn columns<'a>(
             all.extend(pairs);
         }
     }
-    let found = trial
-        .scenario(&here.at)
-        .and_then(|base| trial.slopes(&base, &all, Some(&here.states), f64::INFINITY));
+    let found =
+        base().and_then(|base| trial.slopes(&base, &all, Some(&here.states), f64::INFINITY));
     let Ok(Slopes { slopes, .. }) = found else {
         // one of them can't be built or has no state: the others can
         return match which.split_at(which.len() / 2) {
@@ -281,7 +294,7 @@ impl Column<'_> {
     }
 }
 
-/// For each effect, its form that is noticed first, and the value of its first number from which it would be: the
+/// For each effect, its form that is noticed first, and the share of its typical strength from which it would be: the
 /// squared residuals grow by `most` whatever the scenario's own numbers are.
 pub fn noticeable(
     trial: &Trial<'_>,
@@ -289,14 +302,9 @@ pub fn noticeable(
     forms: &[Form],
     most: f64,
 ) -> Vec<(usize, f64)> {
-    let all: Vec<usize> = (0..forms.len()).collect();
-    let chunks: Vec<&[usize]> = all.chunks(SCREENED).collect();
-    let found = chunks.par_iter().flat_map(|chunk| {
-        let columns = columns(trial, here, forms, chunk);
-        let noticed = columns.into_iter().map(|c| (c.form, c.noticed(here, most)));
-        noticed.collect::<Vec<_>>()
-    });
-    let mut found: Vec<(usize, f64)> = found.collect();
+    let columns = linearised(trial, here, forms, (0..forms.len()).collect(), &|_| ());
+    let noticed = |column: &Column<'_>| (column.form, column.noticed(here, most));
+    let mut found: Vec<(usize, f64)> = columns.par_iter().map(noticed).collect();
     found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
     let mut effects = Vec::new();
     found.retain(|(form, _)| {

@@ -19,7 +19,7 @@ const GAIN: [f64; 2] = [0.25, 0.5];
 const ALIKE: f64 = 0.1;
 /// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
 const ODDS: f64 = 6.0;
-/// Steps of the calibration, and of fits after the mesh's error has become known.
+/// Steps of the calibration, and of fits that begin near their end.
 const STEPS: (usize, usize) = (12, 4);
 
 /// A fitted model and what it was chosen among.

@@ -5,7 +5,7 @@ use super::samples::Samples;
 use super::shared::Shared;
 use crate::compare::CompareError;
 use crate::config::Source;
-use crate::identify::{Parameter, Variant};
+use crate::identify::{Parameter, Quantity, Variant};
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -75,8 +75,6 @@ impl Coordinate {
     }
 }
 
-/// Times chi2 that squared residuals are let grow to in a step, before shared errors are taken out.
-const MUCH: f64 = 4.0;
 /// Residuals without priors, derivatives, and the states of every recording.
 pub struct Slopes {
     /// Whitened residuals.
@@ -87,6 +85,8 @@ pub struct Slopes {
     pub states: Vec<Guide>,
 }
 
+/// Times chi2 that squared residuals are let grow to in a step, before shared errors are taken out.
+const MUCH: f64 = 4.0;
 /// Least damping of the steps.
 pub const DAMPING: f64 = 1e-6;
 
@@ -116,8 +116,17 @@ impl<'a> Trial<'a> {
 
     /// Values at which the last form is not there, after those of everything before it.
     pub fn without(&self, before: &[f64]) -> Vec<f64> {
+        self.followed(before, |q| q.null)
+    }
+
+    /// Values at which the last form is plainly there, after those of everything before it.
+    pub fn typical(&self, before: &[f64]) -> Vec<f64> {
+        self.followed(before, |q| q.typical)
+    }
+
+    fn followed(&self, before: &[f64], value: fn(&Quantity) -> f64) -> Vec<f64> {
         let last = self.forms.last().into_iter();
-        let last = last.flat_map(|form| &form.quantities).map(|q| q.null);
+        let last = last.flat_map(|form| &form.quantities).map(value);
         before.iter().copied().chain(last).collect()
     }
 
@@ -133,20 +142,6 @@ impl<'a> Trial<'a> {
         a.value(a.at + share * (b.at - a.at))
     }
 
-    /// Values at which the last form is plainly there, after those of everything before it.
-    pub fn typical(&self, before: &[f64]) -> Vec<f64> {
-        let last = self
-            .forms
-            .last()
-            .into_iter()
-            .flat_map(|form| &form.quantities);
-        before
-            .iter()
-            .copied()
-            .chain(last.map(|q| q.typical))
-            .collect()
-    }
-
     /// Range of value `j`.
     pub fn range(&self, j: usize) -> (f64, f64) {
         match j.checked_sub(self.own.len()) {
@@ -155,7 +150,7 @@ impl<'a> Trial<'a> {
         }
     }
 
-    fn quantity(&self, k: usize) -> &crate::identify::Quantity {
+    fn quantity(&self, k: usize) -> &Quantity {
         let mut quantities = self.forms.iter().flat_map(|form| &form.quantities);
         quantities
             .nth(k)
@@ -192,12 +187,6 @@ impl<'a> Trial<'a> {
             },
             range: (least, most),
         }
-    }
-
-    fn coordinates(&self, at: &[f64]) -> Vec<Coordinate> {
-        (at.iter().enumerate())
-            .map(|(j, value)| self.coordinate(j, *value))
-            .collect()
     }
 
     fn priors(&self, at: &[f64]) -> Vec<f64> {
@@ -312,17 +301,24 @@ impl<'a> Trial<'a> {
         })
     }
 
-    /// The values that make the linearised residuals least, within the ranges, and what is left of chi2 then.
-    pub fn step(&self, linear: &Linear, damping: f64) -> (Vec<f64>, f64) {
-        let n = linear.at.len();
-        let along = self.coordinates(&linear.at);
-        let scaled = DMatrix::from_fn(linear.residuals.len(), n, |i, j| {
+    /// How the search counts all values, and the derivatives by that, each over its size.
+    fn scaled(&self, linear: &Linear) -> (Vec<Coordinate>, DMatrix<f64>) {
+        let along: Vec<Coordinate> = (linear.at.iter().enumerate())
+            .map(|(j, value)| self.coordinate(j, *value))
+            .collect();
+        let scaled = DMatrix::from_fn(linear.residuals.len(), along.len(), |i, j| {
             linear.jacobian[(i, j)] * along[j].slope * along[j].scale
         });
+        (along, scaled)
+    }
+
+    /// The values that make the linearised residuals least, within the ranges, and what is left of chi2 then.
+    pub fn step(&self, linear: &Linear, damping: f64) -> (Vec<f64>, f64) {
+        let (along, scaled) = self.scaled(linear);
         let (normal, slope) = (scaled.tr_mul(&scaled), scaled.tr_mul(&linear.residuals));
         let mut damped = normal.clone();
         let largest = normal.diagonal().amax().max(1e-300);
-        for j in 0..n {
+        for j in 0..along.len() {
             damped[(j, j)] += damping * normal[(j, j)] + 1e-12 * largest;
         }
         let room = |c: &Coordinate| {
@@ -335,17 +331,15 @@ impl<'a> Trial<'a> {
             c.value((c.at + change * c.scale).clamp(c.range.0, c.range.1))
         };
         let to = along.iter().zip(&change).map(moved).collect();
+        // what is not a number stays none
         (to, if left < 0.0 { 0.0 } else { left })
     }
 
     /// Covariance of the values for residuals of unit variance.
     pub fn covariance(&self, fit: &Linear) -> DMatrix<f64> {
-        let n = fit.at.len();
-        let along = self.coordinates(&fit.at);
+        let (along, scaled) = self.scaled(fit);
         let scales: Vec<f64> = along.iter().map(|c| c.slope * c.scale).collect();
-        let scaled = DMatrix::from_fn(fit.residuals.len(), n, |i, j| {
-            fit.jacobian[(i, j)] * scales[j]
-        });
+        let n = scales.len();
         let normal = scaled.tr_mul(&scaled);
         let least = 1e-12 * normal.diagonal().amax();
         let inverse = normal

@@ -120,24 +120,22 @@ pub struct Noticeable {
     pub form: String,
     /// A number of it.
     pub parameter: String,
-    /// Value from which it is noticed; to first order.
-    pub value: f64,
+    /// Value from which it is noticed, to first order; none if no value that is physical would be.
+    pub value: Option<f64>,
     /// Unit.
     pub unit: String,
-    /// Whether the value is one that the effect may have.
-    pub possible: bool,
 }
 
 impl Noticeable {
     /// In a few words.
     #[must_use]
     pub fn words(&self) -> String {
-        match self.possible {
-            true => format!(
-                "{} at {} = {:.3} {}",
-                self.id, self.parameter, self.value, self.unit
+        match self.value {
+            Some(value) => format!(
+                "{} at {} = {value:.2e} {}",
+                self.id, self.parameter, self.unit
             ),
-            false => format!("{} never", self.id),
+            None => format!("{} never", self.id),
         }
     }
 }

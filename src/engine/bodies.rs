@@ -67,25 +67,21 @@ pub struct Layout {
 
 impl Layout {
     /// Whether the body is a rod.
-    #[inline]
     pub fn is_rod(&self) -> bool {
         self.elements > 0
     }
 
     /// Number of nodes (and of stations).
-    #[inline]
     pub fn nodes(&self) -> usize {
         self.elements + 1
     }
 
     /// Number of frames: one an element, or the one of a rigid body.
-    #[inline]
     pub fn directors(&self) -> usize {
         self.elements.max(1)
     }
 
     /// Stations whose Voronoi cell exists.
-    #[inline]
     pub fn cells(&self) -> std::ops::Range<usize> {
         let first = if self.walled[0] { 0 } else { 1 };
         let past = self.elements + usize::from(self.walled[1]);
@@ -93,7 +89,6 @@ impl Layout {
     }
 
     /// Stations whose element exists.
-    #[inline]
     pub fn element_stations(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.elements
     }
@@ -116,14 +111,12 @@ pub struct State {
 
 impl State {
     /// Becomes the same as `other`, without allocating if it has its size.
-    #[inline]
     pub fn copy_from(&mut self, other: &Self) {
         self.pose_as(other);
         self.memory.clone_from(&other.memory);
     }
 
     /// Takes positions, frames and rates of `other`, but not what its laws remember.
-    #[inline]
     pub(crate) fn pose_as(&mut self, other: &Self) {
         self.position.copy_from(&other.position);
         self.velocity.copy_from(&other.velocity);
@@ -180,25 +173,21 @@ pub struct Bodies {
 
 impl Bodies {
     /// Number of stations.
-    #[inline]
     pub fn stations(&self) -> usize {
         self.mass.len()
     }
 
     /// Where the bodies lie.
-    #[inline]
     pub fn layouts(&self) -> &[Layout] {
         &self.layouts
     }
 
     /// Positions, frames and rates.
-    #[inline]
     pub fn state(&self) -> &State {
         &self.state
     }
 
     /// Holds an end of body `b` by a wall.
-    #[inline]
     pub(crate) fn set_wall(&mut self, b: usize, end: End, director: Matrix3<f64>) {
         let layout = &mut self.layouts[b];
         layout.walled[end as usize] = true;
@@ -275,7 +264,6 @@ impl Bodies {
     }
 
     /// Rest lengths and rigidities as built, for laws to start from.
-    #[inline]
     pub(crate) fn as_built(&mut self) {
         self.rest_length.copy_from(&self.reference_length);
         self.shear_stretch.copy_from(&self.built_shear_stretch);

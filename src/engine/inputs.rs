@@ -50,19 +50,16 @@ impl Series {
     }
 
     /// Times \[s\], increasing.
-    #[inline]
     pub fn times(&self) -> &[f64] {
         &self.times
     }
 
     /// Values at these times.
-    #[inline]
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
     /// First and last time \[s\].
-    #[inline]
     pub fn span(&self) -> (f64, f64) {
         (self.times[0], self.times[self.times.len() - 1])
     }
@@ -71,7 +68,6 @@ impl Series {
 impl TryFrom<Vec<(f64, f64)>> for Series {
     type Error = String;
 
-    #[inline]
     fn try_from(points: Vec<(f64, f64)>) -> Result<Self, String> {
         let (times, values) = points.into_iter().unzip();
         Self::new(times, values)
@@ -79,7 +75,6 @@ impl TryFrom<Vec<(f64, f64)>> for Series {
 }
 
 impl From<Series> for Vec<(f64, f64)> {
-    #[inline]
     fn from(series: Series) -> Self {
         series.times.into_iter().zip(series.values).collect()
     }
@@ -93,13 +88,11 @@ pub struct Inputs {
 
 impl Inputs {
     /// Inputs of the given names.
-    #[inline]
     pub fn new(channels: Vec<(String, Series)>) -> Self {
         Self { channels }
     }
 
     /// Input `name`, if there is one.
-    #[inline]
     pub fn get(&self, name: &str) -> Option<&Series> {
         self.channels
             .iter()
@@ -108,7 +101,6 @@ impl Inputs {
     }
 
     /// Puts another series in the place of input `name`.
-    #[inline]
     pub fn replace(&mut self, name: &str, series: Series) {
         if let Some((_, old)) = self.channels.iter_mut().find(|(known, _)| known == name) {
             *old = series;
@@ -116,13 +108,11 @@ impl Inputs {
     }
 
     /// Names in the order given.
-    #[inline]
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.channels.iter().map(|(name, _)| name.as_str())
     }
 
     /// Every input with its name.
-    #[inline]
     pub fn iter(&self) -> impl Iterator<Item = (&str, &Series)> {
         self.channels
             .iter()
@@ -151,7 +141,6 @@ pub enum Signal {
 
 impl Signal {
     /// Value at the present time. An input that isn't there counts as 0; [`Signal::check`] refuses it before.
-    #[inline]
     pub fn at(&self, now: &Moment<'_>) -> f64 {
         match self {
             Self::Constant(value) => (*value).into(),
@@ -164,7 +153,6 @@ impl Signal {
     }
 
     /// What is wrong with the signal, in words.
-    #[inline]
     pub fn check(&self, inputs: &Inputs) -> Result<(), String> {
         match self {
             Self::Input(name) if inputs.get(name).is_none() => Err(format!(

@@ -73,7 +73,6 @@ impl Site {
 impl Wrench {
     /// The node and the element (relative to the body) that the wrench at `place` acts on, and its torque about that
     /// node, material frame \[N m\].
-    #[inline]
     pub(crate) fn at_station(&self, body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
         let (node, element, lever) = resolve(body, place);
         let torque = self.torque + lever.cross(&(body.director(element) * self.force));

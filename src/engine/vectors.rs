@@ -17,19 +17,16 @@ pub struct Scalars {
 
 impl Scalars {
     /// How many there are.
-    #[inline]
     pub fn len(&self) -> usize {
         self.len
     }
 
     /// Whether there are none.
-    #[inline]
     pub fn is_empty(&self) -> bool {
         self.len == 0
     }
 
     /// Appends a number.
-    #[inline]
     pub fn push(&mut self, value: f64) {
         self.len += 1;
         let blocks = self.len.div_ceil(LANES) + 1;
@@ -50,7 +47,6 @@ impl Scalars {
     }
 
     /// Becomes the same as `other`, without allocating if it has its size.
-    #[inline]
     pub fn copy_from(&mut self, other: &Self) {
         self.padded.clone_from(&other.padded);
         self.len = other.len;
@@ -90,7 +86,6 @@ impl Scalars {
 }
 
 impl PartialEq for Scalars {
-    #[inline]
     fn eq(&self, other: &Self) -> bool {
         self.as_slice() == other.as_slice()
     }
@@ -119,13 +114,11 @@ pub struct Vectors {
 
 impl Vectors {
     /// Number of vectors.
-    #[inline]
     pub fn len(&self) -> usize {
         self.components[0].len()
     }
 
     /// Whether there are none.
-    #[inline]
     pub fn is_empty(&self) -> bool {
         self.components[0].is_empty()
     }
@@ -151,7 +144,6 @@ impl Vectors {
     }
 
     /// Appends a vector.
-    #[inline]
     pub fn push(&mut self, v: Vector3<f64>) {
         for (component, value) in self.components.iter_mut().zip(v.iter()) {
             component.push(*value);
@@ -159,7 +151,6 @@ impl Vectors {
     }
 
     /// Sets every vector to zero.
-    #[inline]
     pub fn clear_to_zero(&mut self) {
         for component in &mut self.components {
             component.as_mut_slice().fill(0.0);
@@ -167,7 +158,6 @@ impl Vectors {
     }
 
     /// Becomes the same as `other`, without allocating if it has its size.
-    #[inline]
     pub fn copy_from(&mut self, other: &Self) {
         for (own, others) in self.components.iter_mut().zip(&other.components) {
             own.copy_from(others);
@@ -191,7 +181,6 @@ impl Vectors {
     }
 
     /// Whether every number is finite. A sum is enough: an infinity or a NaN survives it.
-    #[inline]
     pub fn all_finite(&self) -> bool {
         let sum = |c: &Scalars| c.as_slice().iter().map(|v| v * 0.0).sum::<f64>();
         self.components.iter().map(sum).sum::<f64>() == 0.0
@@ -256,7 +245,6 @@ impl Matrices {
     }
 
     /// Becomes the same as `other`, without allocating if it has its size.
-    #[inline]
     pub fn copy_from(&mut self, other: &Self) {
         for (own, others) in self.rows.iter_mut().zip(&other.rows) {
             own.copy_from(others);
@@ -264,7 +252,6 @@ impl Matrices {
     }
 
     /// Appends a matrix.
-    #[inline]
     pub fn push(&mut self, m: Matrix3<f64>) {
         for (j, row) in self.rows.iter_mut().enumerate() {
             row.push(m.row(j).transpose());
