@@ -98,6 +98,7 @@ fn the_numbers_of_every_effect_are_found_in_a_recording_made_with_it() {
             forms: vec![form],
             data: &data,
             shared: Arc::default(),
+            doubt: 1.0,
         };
         let at = |values: &[f64]| {
             trial

@@ -14,8 +14,7 @@ pub use film::film;
 pub use made::make_recording;
 pub use mismatch::{BodyMismatch, Comparison, Worst};
 pub(crate) use observed::TABLE;
-pub use observed::motor_inputs;
-pub use observed::{Observed, SampleKind};
+pub use observed::{Observed, SampleKind, motor_inputs, published};
 pub use simulated::{Mode, Simulated};
 pub(crate) use simulated::{markers, pose};
 

@@ -45,6 +45,21 @@ pub struct Observed {
 /// The published table of steady poses beside a recording.
 pub(crate) const TABLE: &str = "inverse_kinematics_results_spcs_n_S-2.npz";
 
+/// The published steady poses of a recording without motion capture, in `folder`.
+///
+/// # Errors
+/// If there is no such table, or it is of another recording.
+pub fn published(recording: &Recording, folder: &Path) -> Result<SteadySamples, CompareError> {
+    let table = PublishedTable::read(folder.join(TABLE)).map_err(|table| {
+        CompareError::Unfit(format!(
+            "recording `{}` has no motion capture (mocap_frame_data_history.csv), and its published steady poses can't \
+             be read either: {table}",
+            recording.name
+        ))
+    })?;
+    Ok(table.samples(recording, &RobotGeometry::default())?)
+}
+
 impl Observed {
     /// Reads the recording in `folder`.
     pub fn read(folder: &Path, mode: Mode, kind: SampleKind) -> Result<Self, CompareError> {
@@ -53,14 +68,7 @@ impl Observed {
         match mode {
             Mode::Quasistatic | Mode::Dynamic => Self::every_row(&recording, &geometry),
             Mode::Steady if recording.mocap.is_none() => {
-                let table = PublishedTable::read(folder.join(TABLE)).map_err(|table| {
-                    CompareError::Unfit(format!(
-                        "recording `{}` has no motion capture (mocap_frame_data_history.csv), and its published \
-                         steady poses can't be read either: {table}",
-                        recording.name
-                    ))
-                })?;
-                let samples = table.samples(&recording, &geometry)?;
+                let samples = published(&recording, folder)?;
                 Self::steady(&recording, samples, "published table of steady poses")
             }
             Mode::Steady => {

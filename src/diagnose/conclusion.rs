@@ -5,7 +5,7 @@ use super::forward::NUMERICS;
 use super::locate;
 use super::samples::{Phase, Sample, Samples};
 use super::search::{self, Form};
-use super::standing::{Standing, count};
+use super::standing::Standing;
 use super::verdict::{
     Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
 };
@@ -51,7 +51,7 @@ pub(super) fn conclude(
         id: id.clone(),
         probability,
     });
-    let measured = count(train) as usize;
+    let measured = last.trial.measured() as usize;
     Diagnosis {
         verdict: kind,
         words: sentence(kind, &named, (explained, last.mean_square()), &floor, &ids),
@@ -91,8 +91,8 @@ fn kind(
     }
 }
 
-/// Values with intervals from the curvature of chi2, widened where the fit is worse than the noise. They are those of the
-/// fit that tolerates shared errors, and hold the values of the other one.
+/// Values with intervals from the curvature of chi2, widened where the fit is worse than the noise, and by what a finer mesh
+/// would do to the value. They are those of the fit that tolerates shared errors, and hold the values of the other one.
 fn estimates(standing: &Standing<'_>) -> Vec<Estimated> {
     let (trial, fit) = (&standing.trial, &standing.tolerant);
     let scale = standing.mean_square().max(1.0);
@@ -101,7 +101,8 @@ fn estimates(standing: &Standing<'_>) -> Vec<Estimated> {
     let names = (trial.own.iter().map(|p| (p.name.clone(), p.unit.clone())))
         .chain(quantities.map(|q| (q.name.clone(), q.unit.to_owned())));
     let estimate = |(j, (name, unit)): (usize, (String, String))| {
-        let reach = 1.96 * (covariance[(j, j)] * scale).sqrt();
+        let deviation = (covariance[(j, j)] * scale).sqrt();
+        let reach = 1.96 * deviation.hypot(standing.with_mesh[j]);
         let (least, most) = trial.range(j);
         let (value, tolerant) = (standing.fit.at[j], fit.at[j]);
         let ci95 = [
@@ -155,7 +156,7 @@ fn hidden(baseline: &Standing<'_>, last: &Standing<'_>) -> Option<Hidden> {
     }
     let (trial, own) = (&baseline.trial, baseline.trial.own);
     let bare = trial.linear(&last.fit.at[..own.len()], 0..0, None, f64::INFINITY);
-    let beyond = |chi2: f64| (chi2 - count(trial.data)).max(0.0);
+    let beyond = |chi2: f64| (chi2 - trial.measured()).max(0.0);
     let (mark, seen) = (beyond(bare.ok()?.chi2()), beyond(baseline.fit.chi2()));
     let moved = |j: &usize| {
         let p = &own[*j];
@@ -178,7 +179,7 @@ fn noticeable(
     effects: &[Box<dyn Effect>],
 ) -> Vec<Noticeable> {
     let trial = &baseline.trial;
-    let most = (SOUND - 1.0) * count(trial.data);
+    let most = (SOUND - 1.0) * trial.measured();
     let found = search::noticeable(trial, &baseline.fit, forms, most);
     let notice = |(form, share): (usize, f64)| {
         let Form { effect, variant } = &forms[form];

@@ -85,6 +85,7 @@ pub fn diagnose(
         forms: Vec::new(),
         data: &train,
         shared: Arc::default(),
+        doubt: 1.0,
     };
     let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
     told(0.1);

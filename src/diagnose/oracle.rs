@@ -27,6 +27,7 @@ pub fn oracle(
         forms: Vec::new(),
         data: &train,
         shared: Arc::default(),
+        doubt: 1.0,
     };
     for (id, name, values) in known {
         let same = |f: &&search::Form| effects[f.effect].id() == id && f.variant.name == *name;

@@ -1,8 +1,10 @@
 //! What a recording is reduced to: the settled end and the beginning of every dwell, and rows on the way.
 
-use crate::compare::{CompareError, motor_inputs};
+use crate::compare::{CompareError, motor_inputs, published};
 use crate::engine::Inputs;
-use crate::recordings::{BasePoses, MotorAngles, Pose, Recording, Reference, RobotGeometry};
+use crate::recordings::{
+    BasePoses, MotorAngles, Pose, Recording, Reference, RobotGeometry, SteadySamples,
+};
 use nalgebra::Vector3;
 use std::path::Path;
 
@@ -21,6 +23,11 @@ const QUIET: usize = 8;
 const CLOCK: f64 = 0.01;
 /// Share of the robot's speed that quasi-static states of moving rows may be wrong by, as a time [s].
 const INERTIA: f64 = 0.01;
+
+/// Samples of each phase that are taken of a recording at most, evenly: slow trajectories show the same again and again.
+const MOST: usize = 60;
+/// Deviation of poses from a published table, which doesn't tell it: position [m], rotation [rad].
+const PUBLISHED: (f64, f64) = (1e-4, 1e-3);
 
 /// When a sample was taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,7 +84,11 @@ impl Samples {
     /// # Errors
     /// If it can't be read or shows no dwell.
     pub fn read(folder: &Path) -> Result<Self, CompareError> {
-        Self::of(&Recording::read(folder)?)
+        let recording = Recording::read(folder)?;
+        match recording.mocap {
+            Some(_) => Self::of(&recording),
+            None => Self::published(&recording, &published(&recording, folder)?),
+        }
     }
 
     /// Times between the sample before `i` and `i` that a model which remembers must pass \[s\].
@@ -104,32 +115,14 @@ impl Samples {
         let first = motors.first_row;
         let rows = motors.time.len();
         let tracks = [&poses.platform[first..], &poses.ring[first..]];
-        let rate = |row: usize| {
-            let other = if row == 0 { 1 } else { row - 1 };
-            let dt = (motors.time[row] - motors.time[other]).abs().max(1e-6);
-            let turned = |i: usize| (motors.present[row][i] - motors.present[other][i]).abs();
-            (0..4).map(turned).fold(0.0, f64::max) / dt
-        };
-        let limit = STILL * crate::recordings::RADIANS_PER_TICK;
         if rows < 20 {
             return Err(CompareError::Unfit(format!(
                 "recording `{}` has {rows} rows with motor readings; a diagnosis needs at least 20",
                 recording.name
             )));
         }
-        let still: Vec<bool> = (0..rows).map(|row| rate(row) < limit).collect();
+        let still = still(&motors);
         let noise = noise(&still, tracks);
-        let lively = |row: &usize| {
-            let recent = row.saturating_sub(RELAXING)..*row;
-            let every = match still[*row] {
-                false => ON_THE_WAY,
-                true if still[recent].iter().all(|still| *still) => QUIET,
-                true => 1,
-            };
-            row.is_multiple_of(every)
-        };
-        let passed = (0..rows).filter(lively);
-        let passed = passed.map(|row| motors.time[row]).collect();
         let mut list = Vec::new();
         let mut series = motors.present.clone();
         let mut row = 0;
@@ -178,12 +171,69 @@ impl Samples {
             }
             row = end;
         }
+        Self::reduced(recording, &motors, series, list, (reference, noise))
+    }
+
+    /// Steady samples of a recording without motion capture. Those during which a motor turns are left out.
+    fn published(recording: &Recording, steady: &SteadySamples) -> Result<Self, CompareError> {
+        let motors = MotorAngles::new(recording);
+        let still = still(&motors);
+        let around = |row: usize| {
+            let row = row - motors.first_row;
+            row.saturating_sub(1)..(row + 2).min(still.len())
+        };
+        let settled =
+            (0..steady.len()).filter(|i| still[around(steady.row[*i])].iter().all(|s| *s));
+        let sample = |i: usize| Sample {
+            time: steady.time[i],
+            angles: steady.angles[i],
+            poses: [steady.platform[i], steady.ring[i]],
+            phase: Phase::Settled,
+            position_deviation: [PUBLISHED.0; 2],
+            rotation_deviation: [PUBLISHED.1; 2],
+        };
+        let list = settled.map(sample).collect();
+        let (series, reference) = (motors.present.clone(), steady.reference.clone());
+        Self::reduced(recording, &motors, series, list, (reference, PUBLISHED))
+    }
+
+    fn reduced(
+        recording: &Recording,
+        motors: &MotorAngles,
+        series: Vec<[f64; 4]>,
+        mut list: Vec<Sample>,
+        (reference, noise): (Reference, (f64, f64)),
+    ) -> Result<Self, CompareError> {
         if list.iter().filter(|s| s.phase == Phase::Settled).count() < 3 {
             return Err(CompareError::Unfit(format!(
                 "recording `{}` comes to rest fewer than three times; a diagnosis needs set-points that are held",
                 recording.name
             )));
         }
+        for phase in [Phase::Moving, Phase::Stopped, Phase::Settled] {
+            let every = list
+                .iter()
+                .filter(|s| s.phase == phase)
+                .count()
+                .div_ceil(MOST);
+            let mut count = 0;
+            list.retain(|s| {
+                count += usize::from(s.phase == phase);
+                s.phase != phase || (count - 1).is_multiple_of(every)
+            });
+        }
+        let still = still(motors);
+        let lively = |row: &usize| {
+            let recent = row.saturating_sub(RELAXING)..*row;
+            let every = match still[*row] {
+                false => ON_THE_WAY,
+                true if still[recent].iter().all(|still| *still) => QUIET,
+                true => 1,
+            };
+            row.is_multiple_of(every)
+        };
+        let passed = (0..still.len()).filter(lively);
+        let passed = passed.map(|row| motors.time[row]).collect();
         let inputs = motor_inputs(&motors.time, &series).map_err(CompareError::Unfit)?;
         let travel = std::array::from_fn(|i| {
             let angles = motors.present.iter().map(|a| a[i]);
@@ -200,6 +250,19 @@ impl Samples {
             travel,
         })
     }
+}
+
+/// Whether motors rest, row by row.
+fn still(motors: &MotorAngles) -> Vec<bool> {
+    let rate = |row: usize| {
+        let other = if row == 0 { 1 } else { row - 1 };
+        let dt = (motors.time[row] - motors.time[other]).abs().max(1e-6);
+        let turned = |i: usize| (motors.present[row][i] - motors.present[other][i]).abs();
+        (0..4).map(turned).fold(0.0, f64::max) / dt
+    };
+    let limit = STILL * crate::recordings::RADIANS_PER_TICK;
+    let rows = 0..motors.time.len();
+    rows.map(|row| rate(row) < limit).collect()
 }
 
 fn mean(

@@ -6,8 +6,9 @@ use super::verdict::{Estimated, Fitted, Scored};
 use crate::compare::CompareError;
 use crate::config::Source;
 
-/// Share by which chi2 of a single recording, trained on or held out, may grow when an effect is added.
-const WORSE: f64 = 0.05;
+/// How far chi2 of a single recording, trained on or held out, may grow when an effect is added: a share of itself, or of
+/// what is gained on all.
+const WORSE: [f64; 2] = [0.05, 0.1];
 
 /// How well a scenario does, recording by recording.
 #[derive(Clone)]
@@ -56,7 +57,9 @@ impl Scores {
                 .zip(before.train.iter().chain(&before.holdout))
         };
         let sum = |scores: &[Score]| scores.iter().map(|s| s.chi2).sum::<f64>();
-        pairs().any(|(now, then)| now.chi2 > (1.0 + WORSE) * then.chi2)
+        let gain: f64 = pairs().map(|(now, then)| then.chi2 - now.chi2).sum();
+        let most = |then: &Score| (WORSE[0] * then.chi2).max(WORSE[1] * gain);
+        pairs().any(|(now, then)| now.chi2 - then.chi2 > most(then))
             || sum(&self.holdout) > sum(&before.holdout)
     }
 

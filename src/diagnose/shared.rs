@@ -40,33 +40,10 @@ impl Shared {
         shared
     }
 
-    /// The same, and what the mesh of `source` does.
-    ///
-    /// # Errors
-    /// If the scenario, or the same with a finer mesh, has no steady state at a sample.
-    pub fn with_mesh(mut self, source: &Source, data: &[Samples]) -> Result<Self, CompareError> {
-        let mut sets = Vec::new();
-        for group in 0.. {
-            let path = format!("rods[{group}].elements");
-            let Ok(elements) = source.number(&path) else {
-                break;
-            };
-            sets.push(format!("{path}={:.0}", FINER * elements));
-        }
-        let finer = source.with(&sets)?;
-        let apart = |samples: &Samples| -> Result<Vec<f64>, CompareError> {
-            let (fine, coarse) = rayon::join(
-                || differences(&finer, samples),
-                || differences(source, samples),
-            );
-            let (fine, coarse) = (fine?, coarse?);
-            let apart: Vec<f64> = fine.iter().zip(&coarse).map(|(f, c)| f - c).collect();
-            Ok(whitened(&apart, samples))
-        };
-        let apart = data.par_iter().map(apart);
-        let apart = apart.collect::<Result<Vec<_>, _>>()?.concat();
-        self.add(DVector::from_vec(apart));
-        Ok(self)
+    /// The same, and what the mesh does, as [`mesh`] has it.
+    pub fn with(mut self, mesh: DVector<f64>) -> Self {
+        self.add(mesh);
+        self
     }
 
     fn add(&mut self, direction: DVector<f64>) {
@@ -91,6 +68,35 @@ impl Shared {
             }
         }
     }
+}
+
+/// Whitened change of all residuals if the mesh of `source` were finer.
+///
+/// # Errors
+/// If the scenario, or the same with a finer mesh, has no steady state at a sample.
+pub fn mesh(source: &Source, data: &[Samples]) -> Result<DVector<f64>, CompareError> {
+    let mut sets = Vec::new();
+    for group in 0.. {
+        let path = format!("rods[{group}].elements");
+        let Ok(elements) = source.number(&path) else {
+            break;
+        };
+        sets.push(format!("{path}={:.0}", FINER * elements));
+    }
+    let finer = source.with(&sets)?;
+    let apart = |samples: &Samples| -> Result<Vec<f64>, CompareError> {
+        let (fine, coarse) = rayon::join(
+            || differences(&finer, samples),
+            || differences(source, samples),
+        );
+        let (fine, coarse) = (fine?, coarse?);
+        let apart: Vec<f64> = fine.iter().zip(&coarse).map(|(f, c)| f - c).collect();
+        Ok(whitened(&apart, samples))
+    };
+    let apart = data.par_iter().map(apart);
+    Ok(DVector::from_vec(
+        apart.collect::<Result<Vec<_>, _>>()?.concat(),
+    ))
 }
 
 #[cfg(test)]

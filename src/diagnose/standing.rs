@@ -1,10 +1,9 @@
 //! What a diagnosis has come to: the scenario with the effects that are named so far, fitted.
 
-use super::forward::CHANNELS;
 use super::samples::Samples;
 use super::scores::Scores;
 use super::search::{self, Candidate, Form};
-use super::shared::Shared;
+use super::shared::{self, Shared};
 use super::trial::{Linear, Trial};
 use super::{DiagnoseError, SOUND, unfit};
 use crate::config::Source;
@@ -32,6 +31,8 @@ pub(super) struct Standing<'a> {
     /// The fit that takes errors of mesh and recordings that samples share for noise: it says what they don't explain. The
     /// other one predicts better with the mesh that there is.
     pub(super) tolerant: Linear,
+    /// Change of each fitted value with a finer mesh, to first order; zero where that was not needed or can't be told.
+    pub(super) with_mesh: Vec<f64>,
     /// How well it does.
     pub(super) scores: Scores,
     /// Forms that are named, and the probability of each among those that were tried.
@@ -59,7 +60,8 @@ impl<'a> Standing<'a> {
             })
             .collect();
         let all = 0..nominal.len();
-        let start = empty.start(&nominal, None).map_err(unfit)?;
+        let mut start = empty.start(&nominal, None).map_err(unfit)?;
+        let empty = empty.doubting(&mut start);
         let other = empty.start(&elsewhere, Some(&start));
         let fit = |start: Linear| empty.fit(start, all.clone(), STEPS.0);
         let (first, second) = rayon::join(|| fit(start), || other.map(fit));
@@ -67,10 +69,13 @@ impl<'a> Standing<'a> {
             Ok(second) if second.chi2() < first.chi2() - 1e-6 * first.chi2() => second,
             _ => first,
         };
+        let (empty, fit) = settled(empty, fit);
         let scenario = empty.scenario(&fit.at).map_err(unfit)?;
+        let (tolerant, with_mesh) = tolerant(&empty, &fit)?;
         Ok(Self {
             scores: Scores::of(&scenario, empty.data, holdout)?,
-            tolerant: tolerant(&empty, &fit)?,
+            tolerant,
+            with_mesh,
             trial: empty,
             fit,
             named: Vec::new(),
@@ -85,12 +90,12 @@ impl<'a> Standing<'a> {
 
     /// Squared residuals that shared errors don't explain, the mean over all measured numbers.
     pub(super) fn mean_square(&self) -> f64 {
-        self.tolerant.chi2() / count(self.trial.data)
+        self.tolerant.chi2() / self.trial.measured()
     }
 
     /// Sum of the squared residuals beyond what noise and shared errors make.
     pub(super) fn beyond_noise(&self) -> f64 {
-        (self.tolerant.chi2() - count(self.trial.data)).max(0.0)
+        (self.tolerant.chi2() - self.trial.measured()).max(0.0)
     }
 
     /// The same with one more effect, if there is one that is worth it.
@@ -117,6 +122,7 @@ impl<'a> Standing<'a> {
         let mut trial = self.trial.with(&forms[best.form].variant);
         let mut fit = best.fit.clone();
         drop_needless(&mut trial, &mut fit, &mut named);
+        let (trial, fit) = settled(trial, fit);
         let scenario = trial.scenario(&fit.at).map_err(unfit)?;
         // a model that can't follow a recording held out is worse there
         let Ok(scores) = Scores::of(&scenario, trial.data, holdout) else {
@@ -125,8 +131,10 @@ impl<'a> Standing<'a> {
         if scores.worse_than(&self.scores) {
             return Ok(None);
         }
+        let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
         Ok(Some(Self {
-            tolerant: tolerant(&trial, &fit)?,
+            tolerant,
+            with_mesh,
             fit,
             trial,
             scores,
@@ -141,7 +149,7 @@ impl<'a> Standing<'a> {
         found: &'c [Candidate],
         forms: &[Form],
     ) -> Option<(&'c Candidate, f64, Vec<usize>)> {
-        let measured = count(self.trial.data);
+        let measured = self.trial.measured();
         let scale = (found.first()?.fit.chi2() / measured).max(1.0);
         let cost = |c: &Candidate| {
             c.fit.chi2() / scale + forms[c.form].variant.quantities.len() as f64 * measured.ln()
@@ -174,9 +182,17 @@ impl<'a> Standing<'a> {
     }
 }
 
+/// A fit continued as far as what is known beforehand must count otherwise now.
+fn settled<'a>(trial: Trial<'a>, mut fit: Linear) -> (Trial<'a>, Linear) {
+    let trial = trial.doubting(&mut fit);
+    let all = 0..fit.at.len();
+    let fit = trial.fit(fit, all, STEPS.1);
+    (trial, fit)
+}
+
 /// Drops effects that were named earlier and that the last one makes needless.
 fn drop_needless(trial: &mut Trial<'_>, fit: &mut Linear, named: &mut Vec<(usize, f64)>) {
-    let measured = count(trial.data);
+    let measured = trial.measured();
     for k in (0..named.len() - 1).rev() {
         let numbers = |form: &Variant| form.quantities.len();
         let from = trial.own.len() + trial.forms[..k].iter().map(|f| numbers(f)).sum::<usize>();
@@ -199,24 +215,27 @@ fn drop_needless(trial: &mut Trial<'_>, fit: &mut Linear, named: &mut Vec<(usize
     }
 }
 
-/// A fit continued with the errors that samples share, if there is anything to explain.
-fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<Linear, DiagnoseError> {
-    if trial.forms.is_empty() && fit.chi2() < SOUND * count(trial.data) {
-        return Ok(fit.clone());
+/// A fit continued with the errors that samples share, if there is anything to explain, and what a finer mesh would do to
+/// its values.
+fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<(Linear, Vec<f64>), DiagnoseError> {
+    let still = vec![0.0; fit.at.len()];
+    if trial.forms.is_empty() && fit.chi2() < SOUND * trial.measured() {
+        return Ok((fit.clone(), still));
     }
     let source = trial.scenario(&fit.at).map_err(unfit)?;
+    let biases = Shared::biases(trial.data);
     // where the finer mesh has no steady states, its difference isn't known
-    let shared = Shared::biases(trial.data).with_mesh(&source, trial.data);
-    let shared = shared.unwrap_or_else(|_| Shared::biases(trial.data));
+    let (shared, with_mesh) = match shared::mesh(&source, trial.data) {
+        Ok(mesh) => {
+            let with_mesh = trial.response(fit, &mesh);
+            (biases.with(mesh), with_mesh)
+        }
+        Err(_) => (biases, still),
+    };
     let trial = Trial {
         shared: Arc::new(shared),
         ..trial.clone()
     };
     let start = trial.start(&fit.at, Some(fit)).map_err(unfit)?;
-    Ok(trial.fit(start, 0..fit.at.len(), STEPS.1))
-}
-
-/// Numbers that are measured.
-pub(super) fn count(data: &[Samples]) -> f64 {
-    data.iter().map(|s| s.list.len() * CHANNELS).sum::<usize>() as f64
+    Ok((trial.fit(start, 0..fit.at.len(), STEPS.1), with_mesh))
 }

@@ -1,6 +1,6 @@
 //! A scenario with effects, fitted to recordings by Gauss's and Newton's method.
 
-use super::forward::{Guide, Run, Shown};
+use super::forward::{CHANNELS, Guide, Run, Shown};
 use super::samples::Samples;
 use super::shared::Shared;
 use crate::compare::CompareError;
@@ -24,6 +24,9 @@ pub struct Trial<'a> {
     pub data: &'a [Samples],
     /// Errors that samples share; residuals and derivatives are whitened of them.
     pub shared: Arc<Shared>,
+    /// How many deviations residuals have where physics is missing: what is known beforehand counts as much against them
+    /// as it would against noise.
+    pub doubt: f64,
 }
 
 /// Residuals and their derivatives at some values.
@@ -91,6 +94,28 @@ const MUCH: f64 = 4.0;
 pub const DAMPING: f64 = 1e-6;
 
 impl<'a> Trial<'a> {
+    /// Numbers that are measured.
+    pub fn measured(&self) -> f64 {
+        let samples = self.data.iter().map(|s| s.list.len());
+        (samples.sum::<usize>() * CHANNELS) as f64
+    }
+
+    /// The same with the doubt that the residuals of `fit` tell, which is put in there, too.
+    pub fn doubting(&self, fit: &mut Linear) -> Self {
+        let (measured, all) = (self.measured() as usize, fit.residuals.len());
+        let square = fit.residuals.rows(0, measured).norm_squared() / self.measured();
+        let doubt = square.sqrt().max(1.0);
+        let more = doubt / self.doubt;
+        let mut priors = fit.residuals.rows_mut(measured, all - measured);
+        priors *= more;
+        let mut priors = fit.jacobian.rows_mut(measured, all - measured);
+        priors *= more;
+        Self {
+            doubt,
+            ..self.clone()
+        }
+    }
+
     /// The same with another form.
     pub fn with(&self, form: &'a Variant) -> Self {
         let mut with = self.clone();
@@ -190,7 +215,8 @@ impl<'a> Trial<'a> {
     }
 
     fn priors(&self, at: &[f64]) -> Vec<f64> {
-        let prior = |(p, v): (&Parameter, &f64)| p.prior.map(|(mean, sd)| (v - mean) / sd);
+        let prior =
+            |(p, v): (&Parameter, &f64)| p.prior.map(|(mean, sd)| self.doubt * (v - mean) / sd);
         self.own.iter().zip(at).filter_map(prior).collect()
     }
 
@@ -226,7 +252,7 @@ impl<'a> Trial<'a> {
         let mut row = measured;
         for (j, p) in self.own.iter().enumerate() {
             if let Some((_, sd)) = p.prior {
-                jacobian[(row, j)] = 1.0 / sd;
+                jacobian[(row, j)] = self.doubt / sd;
                 row += 1;
             }
         }
@@ -338,14 +364,17 @@ impl<'a> Trial<'a> {
     /// Covariance of the values for residuals of unit variance.
     pub fn covariance(&self, fit: &Linear) -> DMatrix<f64> {
         let (along, scaled) = self.scaled(fit);
-        let scales: Vec<f64> = along.iter().map(|c| c.slope * c.scale).collect();
-        let n = scales.len();
-        let normal = scaled.tr_mul(&scaled);
-        let least = 1e-12 * normal.diagonal().amax();
-        let inverse = normal
-            .pseudo_inverse(least)
-            .expect("the tolerance is not negative");
-        DMatrix::from_fn(n, n, |i, j| inverse[(i, j)] * scales[i] * scales[j])
+        let scales = DVector::from_iterator(along.len(), along.iter().map(|c| c.slope * c.scale));
+        inverse(&scaled).component_mul(&(&scales * scales.transpose()))
+    }
+
+    /// Change of the fitted values, to first order, if measured residuals changed by this.
+    pub fn response(&self, fit: &Linear, change: &DVector<f64>) -> Vec<f64> {
+        let (along, scaled) = self.scaled(fit);
+        let slope = scaled.rows(0, change.len()).tr_mul(change);
+        let steps = inverse(&scaled) * slope;
+        let steps = along.iter().zip(&steps);
+        steps.map(|(c, step)| -c.slope * c.scale * step).collect()
     }
 
     /// Residuals and all derivatives.
@@ -384,6 +413,14 @@ impl<'a> Trial<'a> {
         }
         here
     }
+}
+
+/// Pseudo-inverse of the normal matrix of a Jacobian.
+fn inverse(jacobian: &DMatrix<f64>) -> DMatrix<f64> {
+    let normal = jacobian.tr_mul(jacobian);
+    let least = 1e-12 * normal.diagonal().amax();
+    let inverse = normal.pseudo_inverse(least);
+    inverse.expect("the tolerance is not negative")
 }
 
 /// Minimises `x A x / 2 + b x` between bounds that hold zero, by active sets: each step goes to the minimum over the free
