@@ -1,0 +1,119 @@
+//! Where scenarios differ from measured curves.
+
+use super::rod::Rod;
+use super::verdict::{CurvesLocation, QuantityShare};
+use crate::characterise::{Beside, Comparison, Quantity};
+
+/// Share of the mismatch of a quantity that its region of twist holds at least.
+const MOST: f64 = 0.8;
+
+/// Squared residuals by quantity, of all rods.
+fn by_quantity(all: &[Comparison]) -> [f64; 4] {
+    let mismatches = all.iter().flat_map(|beside| &beside.mismatches);
+    mismatches.fold([0.0; 4], |mut sums, m| {
+        sums[m.quantity as usize] += m.chi2;
+        sums
+    })
+}
+
+/// The quantity that differs most with the values that the scenarios state, which are those of the law's authors or the
+/// maker's: calibration spreads a mismatch over all quantities.
+pub(super) fn subject(stated: &[Comparison]) -> Quantity {
+    let sums = by_quantity(stated);
+    let most = |a: &Quantity, b: &Quantity| sums[*a as usize].total_cmp(&sums[*b as usize]);
+    let all = Quantity::ALL.into_iter();
+    all.max_by(most).expect("there are quantities")
+}
+
+/// Locates the mismatch: with stated values, with calibrated ones, and of the `subject` as the other quantities let expect
+/// it.
+pub(super) fn locate(
+    stated: &[Comparison],
+    calibrated: &[Comparison],
+    expected: &[Comparison],
+    subject: Quantity,
+) -> CurvesLocation {
+    let (before, after) = (by_quantity(stated), by_quantity(calibrated));
+    let share = |sums: &[f64; 4], q: Quantity| {
+        sums[q as usize] / sums.iter().sum::<f64>().max(f64::MIN_POSITIVE)
+    };
+    let mut quantities: Vec<_> = Quantity::ALL
+        .into_iter()
+        .map(|q| QuantityShare {
+            quantity: q.name().to_owned(),
+            share: share(&before, q),
+            calibrated: share(&after, q),
+        })
+        .collect();
+    quantities.sort_by(|a, b| b.share.total_cmp(&a.share));
+    let points = || {
+        let all = expected.iter().flat_map(|beside| &beside.points);
+        all.filter(|b| b.measured.quantity == subject)
+    };
+    let square = |b: &Beside| b.residual().map_or(0.0, |r| r * r);
+    let (from, to) = region(
+        &points()
+            .map(|b| (b.measured.angle, square(b)))
+            .collect::<Vec<_>>(),
+    );
+    let inside = || points().filter(|b| (from..=to).contains(&b.measured.angle));
+    let excess = inside().filter_map(|b| Some(b.simulated.as_ref().ok()? - b.measured.value));
+    let off = excess.sum::<f64>() / inside().map(|b| b.measured.value).sum::<f64>();
+    let region = [from, to].map(f64::to_degrees);
+    let lies: f64 = inside().map(square).sum::<f64>() / points().map(square).sum::<f64>();
+    CurvesLocation {
+        state: format!(
+            "{:.0} % of the mismatch is in the {subject} with the values that the scenarios state; calibrated by the other \
+             quantities they expect it {:.0} % too {} between {:.0} and {:.0} degrees, where {:.0} % of its mismatch is",
+            100.0 * share(&before, subject),
+            100.0 * off.abs(),
+            if off > 0.0 { "high" } else { "low" },
+            region[0],
+            region[1],
+            100.0 * lies
+        ),
+        quantities,
+        twist_angles_deg: region,
+    }
+}
+
+/// The shortest range of angles that holds [`MOST`] of what belongs to them.
+fn region(squares: &[(f64, f64)]) -> (f64, f64) {
+    let total: f64 = squares.iter().map(|(_, square)| square).sum();
+    let ends = squares
+        .iter()
+        .flat_map(|(from, _)| squares.iter().map(|(to, _)| (*from, *to)));
+    let holds = |from: f64, to: f64| {
+        let inside = squares.iter().filter(|(at, _)| (from..=to).contains(at));
+        inside.map(|(_, square)| square).sum::<f64>() >= MOST * total
+    };
+    ends.filter(|(from, to)| from <= to && holds(*from, *to))
+        .min_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)))
+        .unwrap_or((0.0, 0.0))
+}
+
+/// What was measured and which of it is left out in turn, rod by rod.
+pub(super) fn audit(rods: &[Rod], subject: Quantity) -> Vec<String> {
+    let line = |rod: &Rod| {
+        let of_subject = rod.curves.only(|p| p.quantity == subject);
+        let angles = of_subject.angles();
+        let shown: Vec<String> = match rods {
+            [_] => angles[1..angles.len() - 1].iter(),
+            _ => angles.iter(),
+        }
+        .map(|angle| format!("{:.0}", angle.to_degrees()))
+        .collect();
+        format!(
+            "{}: {} figures; left out {}: the {subject} at {} degrees",
+            rod.name(),
+            rod.curves.points.len(),
+            if rods.len() == 1 {
+                "one after the other"
+            } else {
+                "with the rod"
+            },
+            shown.join(", ")
+        )
+    };
+    rods.iter().map(line).collect()
+}

@@ -1,0 +1,116 @@
+//! A rod on the bench beside its measured curves.
+
+use crate::characterise::{
+    Bench, CharacteriseError, Comparison, Curves, Quantity, compared, residuals,
+};
+use crate::config::Source;
+use crate::diagnose::trial::version;
+use crate::identify::{Fit, Options, Parameter, Variant, fit};
+use std::ops::ControlFlow;
+
+/// Least deviation of a figure, as a share of the largest that its quantity comes to (of lengths, of the extension):
+/// figures are read off plots, and no law holds to less.
+pub(super) const FLOOR: f64 = 0.02;
+/// Force \[N\] that spring constants are found with.
+const PULL: f64 = 1.0;
+
+/// A form of an effect and the values of its numbers.
+pub(super) type Added<'a> = Option<(&'a Variant, &'a [f64])>;
+
+/// A rod and its curves.
+pub struct Rod {
+    pub(super) source: Source,
+    bench: Bench,
+    /// Its figures, with error bars of [`FLOOR`] at least.
+    pub(super) curves: Curves,
+    /// What its scenario declares as uncertain.
+    pub(super) own: Vec<Parameter>,
+}
+
+impl Rod {
+    /// Puts the rod of a scenario on the bench.
+    ///
+    /// # Errors
+    /// If the scenario is wrong, has several rods, or declares nothing under `uncertain`.
+    pub fn new(source: Source, mut curves: Curves) -> Result<Self, CharacteriseError> {
+        for quantity in Quantity::ALL {
+            let values = curves.points.iter().filter(|p| p.quantity == quantity);
+            let values: Vec<f64> = values.map(|p| p.value).collect();
+            let from = match quantity {
+                Quantity::MinimumEnergyLength => values.iter().copied().fold(f64::MAX, f64::min),
+                _ => 0.0,
+            };
+            let largest = values.iter().fold(0.0_f64, |m, v| m.max((v - from).abs()));
+            let points = curves.points.iter_mut().filter(|p| p.quantity == quantity);
+            for point in points {
+                let short = (FLOOR * largest - point.deviation()).max(0.0);
+                point.error_minus += short;
+                point.error_plus += short;
+            }
+        }
+        Ok(Self {
+            bench: Bench::new(&source, None, PULL)?,
+            own: Parameter::declared(&source)?,
+            source,
+            curves,
+        })
+    }
+
+    /// What reports call it.
+    pub(super) fn name(&self) -> &str {
+        &self.curves.origin
+    }
+
+    /// The scenario at values of its own numbers, with an effect.
+    pub(super) fn version(&self, own: &[f64], added: Added<'_>) -> Result<Source, String> {
+        let (form, values) = added.unzip();
+        let at = [own, values.unwrap_or(&[])].concat();
+        version(&self.source, &self.own, form.as_slice(), &at)
+    }
+
+    /// Figures beside what the bench shows then.
+    pub(super) fn compared(
+        &self,
+        own: &[f64],
+        added: Added<'_>,
+        curves: &Curves,
+    ) -> Result<Comparison, String> {
+        compared(&self.version(own, added)?, &self.bench, curves)
+    }
+
+    /// The same as differences in units of the error bars.
+    pub(super) fn residuals(
+        &self,
+        own: &[f64],
+        added: Added<'_>,
+        curves: &Curves,
+    ) -> Result<Vec<f64>, String> {
+        residuals(&self.version(own, added)?, &self.bench, curves)
+    }
+
+    /// Fits its own numbers to figures, beginning at some values.
+    pub(super) fn calibrated(
+        &self,
+        start: &[f64],
+        added: Added<'_>,
+        curves: &Curves,
+    ) -> Result<Fit, String> {
+        let mut parameters = self.own.clone();
+        for (parameter, value) in parameters.iter_mut().zip(start) {
+            parameter.nominal = *value;
+        }
+        let options = Options {
+            starts: 1,
+            tolerance: 1e-8,
+            ..Options::default()
+        };
+        let residuals = |own: &[f64]| self.residuals(own, added, curves);
+        let go_on = |_| ControlFlow::Continue(());
+        fit(&parameters, &residuals, &options, &go_on).map_err(|e| e.to_string())
+    }
+
+    /// The values that its scenario states.
+    pub(super) fn stated(&self) -> Vec<f64> {
+        self.own.iter().map(|p| p.nominal).collect()
+    }
+}
