@@ -121,7 +121,7 @@ pub(super) fn conclude(
         baseline,
         augmented,
         alarms: if seen.sound { vec![] } else { alarms(seen) },
-        audit: locate::audit(base.rods, base.subject),
+        audit: locate::audit(base.rods, seen.groups, base.subject),
         seconds: 0.0,
     };
     Ok((diagnosis, versions))
@@ -144,67 +144,58 @@ fn fitted(
     groups: &[Group],
     held_out: &[Vec<f64>],
 ) -> FittedRods {
-    let squares = |residuals: &[f64]| residuals.iter().map(|r| r * r).sum::<f64>();
     let mut figures = Vec::new();
+    let mut all = Vec::new();
     for ((r, rod), beside) in on.rods.iter().enumerate().zip(beside) {
         for m in &beside.mismatches {
             // without an effect nothing is fitted to the subject
             if m.quantity != on.subject || on.forms.is_some() {
-                figures.push(scored(
-                    rod.name(),
-                    m.quantity,
-                    "train",
-                    m.rms,
-                    m.chi2 / m.points as f64,
-                ));
+                let bars = m.rms_in_bars();
+                figures.push(scored(&rod.name, m.quantity, "train", (m.rms, bars)));
             }
         }
-        let (mut residuals, mut deviations) = (Vec::new(), Vec::new());
-        for (group, values) in groups.iter().zip(held_out) {
-            let points = beside
-                .points
-                .iter()
-                .filter(|b| b.measured.quantity == on.subject && group.holds(r, &b.measured));
-            let points: Vec<f64> = points.map(|b| b.deviation).collect();
-            if !points.is_empty() {
-                residuals.extend(values);
-                deviations.extend(points);
-            }
+        let mut of_rod = Vec::new();
+        for (group, residuals) in groups.iter().zip(held_out) {
+            let points = beside.points.iter();
+            let points =
+                points.filter(|b| b.measured.quantity == on.subject && group.holds(r, &b.measured));
+            // a group of a rod is of one rod, and one of an angle where there is one rod
+            of_rod.extend(points.map(|b| b.deviation).zip(residuals.iter().copied()));
         }
-        let apart: Vec<f64> = residuals
-            .iter()
-            .zip(&deviations)
-            .map(|(r, d)| r * d)
-            .collect();
-        let count = residuals.len() as f64;
-        let rms = (squares(&apart) / count).sqrt();
-        figures.push(scored(
-            rod.name(),
-            on.subject,
-            "holdout",
-            rms,
-            squares(&residuals) / count,
-        ));
+        figures.push(scored(&rod.name, on.subject, "holdout", rms(&of_rod)));
+        all.extend(of_rod);
+    }
+    if on.rods.len() > 1 {
+        figures.push(scored("all", on.subject, "holdout", rms(&all)));
     }
     let own = on.rods.iter().zip(own).map(|(rod, fit)| OfRod {
-        rod: rod.name().to_owned(),
+        rod: rod.name.clone(),
         numbers: fit.estimates.iter().map(estimated).collect(),
     });
     FittedRods {
         parameters: own.collect(),
         figures,
-        reduced_chi2: squares(&held_out.concat()) / held_out.concat().len() as f64,
+        reduced_chi2: rms(&all).1.powi(2),
     }
 }
 
-fn scored(rod: &str, quantity: Quantity, role: &str, rms: f64, square: f64) -> ScoredQuantity {
+/// Root mean squares of differences, given as deviations and residuals in units of those: in SI units and in theirs.
+fn rms(each: &[(f64, f64)]) -> (f64, f64) {
+    let mean = |of: fn(&(f64, f64)) -> f64| {
+        let squares = each.iter().map(|pair| of(pair).powi(2));
+        (squares.sum::<f64>() / each.len() as f64).sqrt()
+    };
+    (mean(|(d, r)| d * r), mean(|(_, r)| *r))
+}
+
+fn scored(rod: &str, quantity: Quantity, role: &str, (rms, bars): (f64, f64)) -> ScoredQuantity {
     ScoredQuantity {
         rod: rod.to_owned(),
         quantity: quantity.name().to_owned(),
         role: role.to_owned(),
         rmse: rms / quantity.in_si(),
         unit: quantity.unit().to_owned(),
-        rms_in_bars: square.sqrt(),
+        rms_in_bars: bars,
     }
 }
 
@@ -218,7 +209,7 @@ fn alarms(seen: &Seen<'_>) -> Vec<String> {
                 alarms.push(format!(
                     "{}: {name} ended at an end of its range, {:.4e} {unit}: the range is too narrow, or the number stands \
                      for physics that is missing",
-                    rod.name(),
+                    rod.name,
                     b.value
                 ));
             }
@@ -230,7 +221,7 @@ fn alarms(seen: &Seen<'_>) -> Vec<String> {
                 alarms.push(format!(
                     "{}: {name} is {:.4e} {unit} by the other quantities and {:.4e} {unit} if it may follow the {}, {away:.1} \
                      deviations apart",
-                    rod.name(),
+                    rod.name,
                     b.value,
                     a.value,
                     seen.base.subject

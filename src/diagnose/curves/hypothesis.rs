@@ -2,8 +2,9 @@
 //! they can't hide what it gets wrong, and the effect's numbers, the same for all rods, by the quantity that it does.
 
 use super::rod::{Added, Rod};
-use crate::characterise::{Comparison, Point, Quantity};
+use crate::characterise::{Comparison, Curves, Point, Quantity};
 use crate::identify::{Fit, Options, Parameter, Variant, fit};
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 use std::ops::ControlFlow;
 
@@ -36,6 +37,9 @@ impl Group {
     }
 }
 
+/// Steps that bring rods' own numbers back to the other quantities.
+const STEPS: usize = 2;
+
 /// An effect in a form, or none, on all rods.
 pub(super) struct Hypothesis<'a> {
     pub(super) rods: &'a [Rod],
@@ -43,6 +47,8 @@ pub(super) struct Hypothesis<'a> {
     pub(super) subject: Quantity,
     /// The rods' own numbers, calibrated by the other quantities without an effect.
     pub(super) own: &'a [Vec<f64>],
+    /// What brings them back to the other quantities ([`Rod::correction`]).
+    pub(super) corrections: &'a [DMatrix<f64>],
     /// The form on each rod, none if there is no effect.
     pub(super) forms: Option<&'a [Variant]>,
 }
@@ -54,9 +60,30 @@ impl Hypothesis<'_> {
 
     /// A rod's own numbers by the other quantities.
     pub(super) fn calibrated(&self, rod: usize, values: &[f64]) -> Result<Fit, String> {
-        let others = |p: &Point| p.quantity != self.subject;
         let (on, added) = (&self.rods[rod], self.added(rod, values));
-        on.calibrated(&self.own[rod], added, &on.curves.only(others))
+        on.calibrated(&self.own[rod], added, &self.others(rod))
+    }
+
+    fn others(&self, rod: usize) -> Curves {
+        let curves = &self.rods[rod].curves;
+        curves.only(|p| p.quantity != self.subject)
+    }
+
+    /// Nearly the same numbers, by a few steps with the derivatives without an effect.
+    fn brought_back(&self, rod: usize, values: &[f64]) -> Result<Vec<f64>, String> {
+        let mut own = self.own[rod].clone();
+        if self.forms.is_none() {
+            return Ok(own);
+        }
+        let (on, added, others) = (&self.rods[rod], self.added(rod, values), self.others(rod));
+        for _ in 0..STEPS {
+            let residuals = DVector::from_vec(on.residuals(&own, added, &others)?);
+            let change = &self.corrections[rod] * residuals;
+            for ((value, change), p) in own.iter_mut().zip(&change).zip(&on.own) {
+                *value = (*value + change).clamp(p.range.0, p.range.1);
+            }
+        }
+        Ok(own)
     }
 
     /// The rod's figures that `keep` chooses, beside those of the bench.
@@ -66,11 +93,8 @@ impl Hypothesis<'_> {
         values: &[f64],
         keep: &dyn Fn(&Point) -> bool,
     ) -> Result<Comparison, String> {
+        let own = self.brought_back(rod, values)?;
         let (on, added) = (&self.rods[rod], self.added(rod, values));
-        let own = match self.forms {
-            None => self.own[rod].clone(),
-            Some(_) => self.calibrated(rod, values)?.values(),
-        };
         on.compared(&own, added, &on.curves.only(keep))
     }
 
@@ -102,7 +126,9 @@ impl Hypothesis<'_> {
     /// Squared residuals of the other quantities, by which rods' own numbers are calibrated.
     pub(super) fn rest(&self, values: &[f64]) -> Result<f64, String> {
         let rods = (0..self.rods.len()).into_par_iter();
-        rods.map(|rod| Ok(self.calibrated(rod, values)?.chi2)).sum()
+        let others = |p: &Point| p.quantity != self.subject;
+        rods.map(|rod| Ok(self.compared(rod, values, &others)?.chi2()))
+            .sum()
     }
 
     /// The effect's numbers by the subject, all but those that are left out, beginning at some values.

@@ -1,8 +1,9 @@
 //! Where scenarios differ from measured curves.
 
+use super::hypothesis::Group;
 use super::rod::Rod;
 use super::verdict::{CurvesLocation, QuantityShare};
-use crate::characterise::{Beside, Comparison, Quantity};
+use crate::characterise::{Beside, Comparison, Point, Quantity};
 
 /// Share of the mismatch of a quantity that its region of twist holds at least.
 const MOST: f64 = 0.8;
@@ -93,27 +94,22 @@ fn region(squares: &[(f64, f64)]) -> (f64, f64) {
 }
 
 /// What was measured and which of it is left out in turn, rod by rod.
-pub(super) fn audit(rods: &[Rod], subject: Quantity) -> Vec<String> {
-    let line = |rod: &Rod| {
-        let of_subject = rod.curves.only(|p| p.quantity == subject);
-        let angles = of_subject.angles();
-        let shown: Vec<String> = match rods {
-            [_] => angles[1..angles.len() - 1].iter(),
-            _ => angles.iter(),
-        }
-        .map(|angle| format!("{:.0}", angle.to_degrees()))
-        .collect();
+pub(super) fn audit(rods: &[Rod], groups: &[Group], subject: Quantity) -> Vec<String> {
+    let line = |(r, rod): (usize, &Rod)| {
+        let held = |p: &Point| p.quantity == subject && groups.iter().any(|g| g.holds(r, p));
+        let angles = rod.curves.only(held).angles();
+        let angles = angles.iter().map(|a| format!("{:.0}", a.to_degrees()));
         format!(
             "{}: {} figures; left out {}: the {subject} at {} degrees",
-            rod.name(),
+            rod.name,
             rod.curves.points.len(),
             if rods.len() == 1 {
                 "one after the other"
             } else {
                 "with the rod"
             },
-            shown.join(", ")
+            angles.collect::<Vec<_>>().join(", ")
         )
     };
-    rods.iter().map(line).collect()
+    rods.iter().enumerate().map(line).collect()
 }

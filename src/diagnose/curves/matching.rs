@@ -1,6 +1,6 @@
 //! Which rod of a table of curves a scenario is of.
 
-use super::rod::Rod;
+use super::rod::{PULL, Rod};
 use crate::characterise::{BadCurves, Bench, CharacteriseError, Curves, Quantity};
 use crate::config::Source;
 use std::ops::ControlFlow;
@@ -20,8 +20,8 @@ pub(super) fn matched(
     file: &Path,
     rows: Option<u32>,
 ) -> Result<Rod, CharacteriseError> {
-    let curves = match rows {
-        Some(_) => Curves::read(file, rows)?,
+    let (rows, curves) = match rows {
+        Some(_) => (rows, Curves::read(file, rows)?),
         None => of_length(source, file)?,
     };
     let mut quantities: Vec<Quantity> = curves.points.iter().map(|p| p.quantity).collect();
@@ -41,59 +41,61 @@ pub(super) fn matched(
             place: curves.origin,
         }));
     }
-    Rod::new(source.with(&[])?, curves)
+    Rod::new(source.with(&[])?, curves, rows)
 }
 
-/// The curves of the rod that is as long as that of the scenario.
-fn of_length(source: &Source, file: &Path) -> Result<Curves, CharacteriseError> {
-    let here = Bench::new(source, None, 1.0)?
-        .characterise(&[0.0], &mut |_| ControlFlow::Continue(()))?[0]
-        .get(Quantity::MinimumEnergyLength)
-        .map_err(|e| BadCurves {
-            place: source.name().to_owned(),
-            what: format!("the untwisted rod has no steady state ({e})"),
-            remedy: "mend the scenario".into(),
-        })?;
-    let all = Curves::rows(file)?
-        .into_iter()
-        .map(|rows| Curves::read(file, rows))
-        .collect::<Result<Vec<_>, _>>()?;
+/// The curves of the rod that is as long as that of the scenario, and its rows.
+fn of_length(source: &Source, file: &Path) -> Result<(Option<u32>, Curves), CharacteriseError> {
+    let bad = |place: String, what: String, remedy: &str| {
+        let remedy = remedy.to_owned();
+        CharacteriseError::Curves(BadCurves {
+            place,
+            what,
+            remedy,
+        })
+    };
+    let all = Curves::rows(file)?.into_iter();
+    let all = all.map(|rows| Ok((rows, Curves::read(file, rows)?)));
+    let mut all = all.collect::<Result<Vec<_>, BadCurves>>()?;
     let length = |curves: &Curves| {
         let lengths = curves.points.iter();
         let lengths = lengths.filter(|p| p.quantity == Quantity::MinimumEnergyLength);
         let untwisted = lengths.min_by(|a, b| a.angle.abs().total_cmp(&b.angle.abs()));
         untwisted.map(|p| p.value)
     };
-    let off = |curves: &Curves| length(curves).map(|there| (there / here - 1.0).abs());
-    let (known, unknown): (Vec<_>, Vec<_>) = all.into_iter().partition(|c| off(c).is_some());
     // a table of one rod need not tell its length
-    if let ([], [_]) = (&known[..], &unknown[..]) {
-        return Ok(unknown.into_iter().next().expect("there is one"));
+    if let [(_, only)] = &all[..]
+        && length(only).is_none()
+    {
+        return Ok(all.remove(0));
     }
-    let listed: Vec<String> = known
-        .iter()
-        .filter_map(|c| Some(format!("{:.1} mm ({})", 1e3 * length(c)?, c.origin)))
+    let here = Bench::new(source, None, PULL)?
+        .characterise(&[0.0], &mut |_| ControlFlow::Continue(()))?[0]
+        .get(Quantity::MinimumEnergyLength)
+        .map_err(|e| {
+            let what = format!("the untwisted rod has no steady state ({e})");
+            bad(source.name().to_owned(), what, "mend the scenario")
+        })?;
+    let lengths = all.iter().enumerate();
+    let lengths: Vec<_> = lengths
+        .filter_map(|(i, (_, curves))| Some((i, length(curves)?)))
         .collect();
-    let nearest = known.into_iter().min_by(|a, b| {
-        off(a)
-            .unwrap_or(f64::MAX)
-            .total_cmp(&off(b).unwrap_or(f64::MAX))
-    });
-    match nearest {
-        Some(curves) if off(&curves).is_some_and(|off| off < AS_LONG) => Ok(curves),
-        _ => Err(CharacteriseError::Curves(BadCurves {
-            place: file.display().to_string(),
-            what: format!(
-                "it holds no rod as long as that of {}, {:.1} mm untwisted; it has {}",
+    let off = |(_, there): &(usize, f64)| (there / here - 1.0).abs();
+    let nearest = lengths.iter().min_by(|a, b| off(a).total_cmp(&off(b)));
+    match nearest.filter(|nearest| off(nearest) < AS_LONG) {
+        Some((i, _)) => Ok(all.remove(*i)),
+        None => {
+            let listed = lengths.iter().map(|(_, l)| format!("{:.1} mm", 1e3 * l));
+            let listed = listed.collect::<Vec<_>>().join(", ");
+            let what = format!(
+                "it holds no rod as long as that of {}, {:.1} mm untwisted; lengths: {}",
                 source.name(),
                 1e3 * here,
-                match listed.as_slice() {
-                    [] => "several rods, and no `minimum_energy_length` of them".to_owned(),
-                    some => some.join(", "),
-                }
-            ),
-            remedy: "give the scenario of a rod that was measured, or say which it is with --rows"
-                .into(),
-        })),
+                if listed.is_empty() { "none" } else { &listed }
+            );
+            let remedy =
+                "give the scenario of a rod that was measured, or say which rod it is with --rows";
+            Err(bad(file.display().to_string(), what, remedy))
+        }
     }
 }

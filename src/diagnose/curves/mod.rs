@@ -54,15 +54,17 @@ pub fn diagnose_curves(
     let stated = each(&rods, |_, rod| all(rod, &rod.stated()));
     let stated = stated.unwrap_or_else(|_| calibrated.clone());
     let subject = locate::subject(&stated);
+    let but_subject = |rod: &Rod| rod.curves.only(|p| p.quantity != subject);
     let others = each(&rods, |_, rod| {
-        let others = rod.curves.only(|p| p.quantity != subject);
-        rod.calibrated(&rod.stated(), None, &others)
+        rod.calibrated(&rod.stated(), None, &but_subject(rod))
     })?;
     let own: Vec<_> = others.iter().map(crate::identify::Fit::values).collect();
+    let corrections = each(&rods, |r, rod| rod.correction(&own[r], &but_subject(rod)))?;
     let base = Hypothesis {
         rods: &rods,
         subject,
         own: &own,
+        corrections: &corrections,
         forms: None,
     };
     let groups = Group::all(&rods, subject);
@@ -107,15 +109,12 @@ fn rods(request: &CurvesRequest<'_>) -> Result<Vec<Rod>, DiagnoseError> {
     let rod = |(i, source)| matching::matched(source, request.file, rows.get(i).copied());
     let rods: Vec<Rod> = (scenarios.iter().enumerate().map(rod)).collect::<Result<_, _>>()?;
     for (i, rod) in rods.iter().enumerate() {
-        if let Some(first) = rods[..i]
-            .iter()
-            .position(|other| other.name() == rod.name())
-        {
+        if let Some(first) = rods[..i].iter().position(|other| other.name == rod.name) {
             return Err(DiagnoseError::Unfit(format!(
                 "{} and {} are both taken for the rod of {}: give one scenario a rod, or say which they are with --rows",
                 scenarios[first].name(),
                 scenarios[i].name(),
-                rod.name()
+                rod.name
             )));
         }
     }

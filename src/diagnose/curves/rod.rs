@@ -5,20 +5,26 @@ use crate::characterise::{
 };
 use crate::config::Source;
 use crate::diagnose::trial::version;
-use crate::identify::{Fit, Options, Parameter, Variant, fit};
+use crate::identify::{Fit, Options, Parameter, Variant, central_differences, fit};
+use nalgebra::DMatrix;
 use std::ops::ControlFlow;
 
 /// Least deviation of a figure, as a share of the largest that its quantity comes to (of lengths, of the extension):
 /// figures are read off plots, and no law holds to less.
 pub(super) const FLOOR: f64 = 0.02;
 /// Force \[N\] that spring constants are found with.
-const PULL: f64 = 1.0;
+pub(super) const PULL: f64 = 1.0;
+
+/// Change of residuals across whole ranges of numbers that is no change.
+const UNDETERMINED: f64 = 1e-3;
 
 /// A form of an effect and the values of its numbers.
 pub(super) type Added<'a> = Option<(&'a Variant, &'a [f64])>;
 
 /// A rod and its curves.
 pub struct Rod {
+    /// What reports call it.
+    pub(super) name: String,
     pub(super) source: Source,
     bench: Bench,
     /// Its figures, with error bars of [`FLOOR`] at least.
@@ -32,7 +38,12 @@ impl Rod {
     ///
     /// # Errors
     /// If the scenario is wrong, has several rods, or declares nothing under `uncertain`.
-    pub fn new(source: Source, mut curves: Curves) -> Result<Self, CharacteriseError> {
+    pub(super) fn new(
+        source: Source,
+        mut curves: Curves,
+        rows: Option<u32>,
+    ) -> Result<Self, CharacteriseError> {
+        let bench = Bench::new(&source, None, PULL)?;
         for quantity in Quantity::ALL {
             let values = curves.points.iter().filter(|p| p.quantity == quantity);
             let values: Vec<f64> = values.map(|p| p.value).collect();
@@ -49,16 +60,12 @@ impl Rod {
             }
         }
         Ok(Self {
-            bench: Bench::new(&source, None, PULL)?,
+            name: rows.map_or_else(|| bench.rod().to_owned(), |rows| format!("{rows} rows")),
+            bench,
             own: Parameter::declared(&source)?,
             source,
             curves,
         })
-    }
-
-    /// What reports call it.
-    pub(super) fn name(&self) -> &str {
-        &self.curves.origin
     }
 
     /// The scenario at values of its own numbers, with an effect.
@@ -107,6 +114,22 @@ impl Rod {
         let residuals = |own: &[f64]| self.residuals(own, added, curves);
         let go_on = |_| ControlFlow::Continue(());
         fit(&parameters, &residuals, &options, &go_on).map_err(|e| e.to_string())
+    }
+
+    /// By how much its own numbers must change, to first order, for residuals of some figures to become least: a matrix
+    /// to multiply those with.
+    pub(super) fn correction(&self, own: &[f64], curves: &Curves) -> Result<DMatrix<f64>, String> {
+        let residuals = |own: &[f64]| self.residuals(own, None, curves);
+        let here = residuals(own)?;
+        let mut slopes = central_differences(&residuals, own, &here, &self.own)?;
+        for (mut column, p) in slopes.column_iter_mut().zip(&self.own) {
+            column *= p.width();
+        }
+        let mut inverse = slopes.pseudo_inverse(UNDETERMINED).map_err(str::to_owned)?;
+        for (mut row, p) in inverse.row_iter_mut().zip(&self.own) {
+            row *= -p.width();
+        }
+        Ok(inverse)
     }
 
     /// The values that its scenario states.

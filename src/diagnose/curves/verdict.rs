@@ -98,7 +98,7 @@ pub struct FittedRods {
 /// How well a scenario does on a quantity.
 #[derive(Clone, Debug, Serialize)]
 pub struct ScoredQuantity {
-    /// The rod.
+    /// The rod, or `all`.
     pub rod: String,
     /// The quantity.
     pub quantity: String,
