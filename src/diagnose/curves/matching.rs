@@ -2,7 +2,8 @@
 
 use super::rod::{PULL, Rod};
 use crate::characterise::{BadCurves, Bench, CharacteriseError, Curves, Quantity};
-use crate::config::Source;
+use crate::config::{Problem, Problems, Source};
+use crate::identify::Robot;
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -20,6 +21,11 @@ pub(super) fn matched(
     file: &Path,
     rows: Option<u32>,
 ) -> Result<Rod, CharacteriseError> {
+    if Robot::of(source)?.rods.len() > 1 {
+        let several = Problem::new(format!("{} has several rods", source.name()));
+        let hint = "curves are of single rods: give a scenario of one, such as hsa_rod_8rows.ron";
+        return Err(Problems::from(several.with_hint(hint)).into());
+    }
     let (rows, curves) = match rows {
         Some(_) => (rows, Curves::read(file, rows)?),
         None => of_length(source, file)?,
