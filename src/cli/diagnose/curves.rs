@@ -4,8 +4,11 @@ use super::{Options, numbers};
 use crate::cli::progress::shared;
 use crate::cli::table::table;
 use crate::cli::{Failure, write_whole};
-use crate::diagnose::curves::verdict::{CurvesDiagnosis, FittedRods, ScoredQuantity};
+use crate::diagnose::curves::verdict::{
+    CurvesDiagnosis, CurvesLocation, FittedRods, ScoredQuantity,
+};
 use crate::diagnose::curves::{CurvesRequest, diagnose_curves};
+use crate::diagnose::verdict::Kind;
 use std::path::{Path, PathBuf};
 
 pub(super) fn run(options: &Options, file: &Path, quiet: bool) -> Result<(), Failure> {
@@ -40,14 +43,10 @@ fn beside(path: &Path, scenario: &Path) -> PathBuf {
 
 /// The diagnosis for people.
 fn show(d: &CurvesDiagnosis) -> String {
-    let mut text = format!("{}\n\nwhere: {}\n", d.words, d.location.state);
-    for q in &d.location.quantities {
-        text += &format!(
-            "  {}: {:.0} % ({:.0} % when calibrated by all)\n",
-            q.quantity.replace('_', " "),
-            100.0 * q.share,
-            100.0 * q.calibrated
-        );
+    let mut text = format!("{}\n", d.words);
+    // within the error bars there is no where
+    if d.verdict != Kind::None {
+        text += &location(&d.location);
     }
     for effect in &d.effects {
         text += &format!(
@@ -77,6 +76,19 @@ fn show(d: &CurvesDiagnosis) -> String {
         d.augmented.reduced_chi2,
         d.seconds
     );
+    text
+}
+
+fn location(location: &CurvesLocation) -> String {
+    let mut text = format!("\nwhere: {}\n", location.state);
+    for q in &location.quantities {
+        text += &format!(
+            "  {}: {:.0} % ({:.0} % when calibrated by all)\n",
+            q.quantity.replace('_', " "),
+            100.0 * q.share,
+            100.0 * q.calibrated
+        );
+    }
     text
 }
 

@@ -62,15 +62,17 @@ pub(super) fn locate(
     let off = excess.sum::<f64>() / inside().map(|b| b.measured.value).sum::<f64>();
     let region = [from, to].map(f64::to_degrees);
     let lies: f64 = inside().map(square).sum::<f64>() / points().map(square).sum::<f64>();
+    let place = match region {
+        [from, to] if from == to => format!("at {from:.0} degrees"),
+        [from, to] => format!("between {from:.0} and {to:.0} degrees"),
+    };
     CurvesLocation {
         state: format!(
             "{:.0} % of the mismatch is in the {subject} with the values that the scenarios state; calibrated by the other \
-             quantities they expect it {:.0} % too {} between {:.0} and {:.0} degrees, where {:.0} % of its mismatch is",
+             quantities they expect it {:.0} % too {} {place}, where {:.0} % of its mismatch is",
             100.0 * share(&before, subject),
             100.0 * off.abs(),
             if off > 0.0 { "high" } else { "low" },
-            region[0],
-            region[1],
             100.0 * lies
         ),
         quantities,
