@@ -3,12 +3,11 @@
 use super::hypothesis::{Group, Hypothesis};
 use super::locate;
 use super::rod::FLOOR;
-use super::search::{Form, Found, held_out};
+use super::search::{Form, Judged};
 use super::verdict::{CurvesDiagnosis, FittedRods, NamedOfRods, OfRod, ScoredQuantity};
 use super::{DiagnoseError, each};
 use crate::characterise::{Comparison, Quantity};
 use crate::config::Source;
-use crate::diagnose::unfit;
 use crate::diagnose::verdict::{Alternative, Estimated, Experiment, Kind};
 use crate::identify::{Effect, Estimate, Fit, Parameter};
 
@@ -23,6 +22,8 @@ pub(super) struct Seen<'a> {
     pub(super) base: &'a Hypothesis<'a>,
     /// What is left out in turn.
     pub(super) groups: &'a [Group],
+    /// Residuals there without an effect, group by group.
+    pub(super) held_out: &'a [Vec<f64>],
     /// Figures beside the scenarios with the values that they state.
     pub(super) stated: &'a [Comparison],
     /// The same with values calibrated by all quantities.
@@ -38,17 +39,17 @@ pub(super) struct Seen<'a> {
 /// The diagnosis, and the scenarios with the named effect.
 pub(super) fn conclude(
     seen: &Seen<'_>,
-    found: &Found,
+    found: &[Judged],
     forms: &[Form],
     effects: &[Box<dyn Effect>],
 ) -> Result<(CurvesDiagnosis, Vec<Source>), DiagnoseError> {
     let base = seen.base;
-    let best = found.alike.first();
+    let best = found.first();
     let effect = |form: usize| &effects[forms[form].effect];
-    let ids: Vec<String> = (found.alike.iter())
+    let ids: Vec<String> = (found.iter())
         .map(|judged| effect(judged.form).id().to_owned())
         .collect();
-    let verdict = match found.alike.len() {
+    let verdict = match found.len() {
         _ if seen.sound => Kind::None,
         0 => Kind::Unexplained,
         1 => Kind::Effect,
@@ -69,9 +70,8 @@ pub(super) fn conclude(
         let added = with.forms.map(|forms| (&forms[r], &values[..]));
         rod.version(&own[r].values(), added)
     })?;
-    let bare = held_out(base, &[], seen.groups).map_err(unfit)?;
     let expected = each(base.rods, |r, _| base.compared(r, &[], &|_| true))?;
-    let baseline = fitted(base, &expected, seen.others, seen.groups, &bare);
+    let baseline = fitted(base, &expected, seen.others, seen.groups, seen.held_out);
     let augmented = match best {
         None => baseline.clone(),
         Some(best) => {
@@ -100,7 +100,7 @@ pub(super) fn conclude(
         words: effect(best.form).experiment().to_owned(),
         discriminates: ids.clone(),
     });
-    let alternatives = found.alike.iter().zip(&ids).skip(1);
+    let alternatives = found.iter().zip(&ids).skip(1);
     let diagnosis = CurvesDiagnosis {
         verdict,
         words: sentence(verdict, base, effects.as_ref(), &ids, (before, after)),

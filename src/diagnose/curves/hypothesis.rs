@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use std::ops::ControlFlow;
 
 /// Figures that are left out together: those of a rod if there are several, or else those at an angle inside the range.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug)]
 pub(super) enum Group {
     Rod(usize),
     /// Twist angle \[rad\].
@@ -32,7 +32,7 @@ impl Group {
     pub(super) fn holds(self, rod: usize, point: &Point) -> bool {
         match self {
             Self::Rod(held) => held == rod,
-            Self::Angle(held) => held == point.angle,
+            Self::Angle(held) => held.total_cmp(&point.angle).is_eq(),
         }
     }
 }

@@ -63,8 +63,8 @@ pub(super) fn locate(
     let region = [from, to].map(f64::to_degrees);
     let lies: f64 = inside().map(square).sum::<f64>() / points().map(square).sum::<f64>();
     let place = match region {
-        [from, to] if from == to => format!("at {from:.0} degrees"),
-        [from, to] => format!("between {from:.0} and {to:.0} degrees"),
+        [from, to] if to > from => format!("between {from:.0} and {to:.0} degrees"),
+        [from, _] => format!("at {from:.0} degrees"),
     };
     CurvesLocation {
         state: format!(

@@ -78,13 +78,18 @@ pub fn diagnose_curves(
     let degrees: usize = free.iter().map(|fit| fit.degrees_of_freedom).sum();
     let sound = squares < SOUND * degrees.max(1) as f64;
     let forms = search::forms(&effects, &rods)?;
+    let held_out = search::held_out(&base, &[], &groups).map_err(unsolved)?;
     let found = match sound {
-        true => search::Found::default(),
-        false => search::search(&base, &groups, &forms, &|share| told(0.1 + 0.85 * share))?,
+        true => Vec::new(),
+        false => {
+            let told = |share: f64| told(0.1 + 0.85 * share);
+            search::search(&base, &groups, &held_out, &forms, &told).map_err(unsolved)?
+        }
     };
     let seen = conclusion::Seen {
         base: &base,
         groups: &groups,
+        held_out: &held_out,
         stated: &stated,
         calibrated: &calibrated,
         free: &free,
@@ -119,6 +124,10 @@ fn rods(request: &CurvesRequest<'_>) -> Result<Vec<Rod>, DiagnoseError> {
         }
     }
     Ok(rods)
+}
+
+fn unsolved(e: String) -> DiagnoseError {
+    DiagnoseError::Unfit(format!("a rod can't be put on the bench: {e}"))
 }
 
 /// Something of each rod.

@@ -50,12 +50,6 @@ pub(super) struct Judged {
     pub(super) probability: f64,
 }
 
-/// Effects that predict about as well, the best first, and what was held out without any.
-#[derive(Default)]
-pub(super) struct Found {
-    pub(super) alike: Vec<Judged>,
-}
-
 fn squares(residuals: &[Vec<f64>]) -> f64 {
     residuals.iter().flatten().map(|r| r * r).sum()
 }
@@ -70,14 +64,15 @@ pub(super) fn held_out(
     each.collect()
 }
 
-/// Tries every form.
+/// Tries every form, and gives the effects that predict best what is left out, and about as well. `before` are the
+/// residuals there without an effect.
 pub(super) fn search(
     base: &Hypothesis<'_>,
     groups: &[Group],
+    before: &[Vec<f64>],
     forms: &[Form],
     told: &(dyn Fn(f64) + Sync),
-) -> Result<Found, super::DiagnoseError> {
-    let before = held_out(base, &[], groups).map_err(super::super::unfit)?;
+) -> Result<Vec<Judged>, String> {
     let done = AtomicUsize::new(0);
     let with = |form: usize| Hypothesis {
         forms: Some(&forms[form].variants),
@@ -94,7 +89,7 @@ pub(super) fn search(
         Some((form, fit?.ok()?))
     });
     let mut tried: Vec<(usize, Fit)> = tried.collect();
-    let none = base.chi2(&[]).map_err(super::super::unfit)?;
+    let none = base.chi2(&[])?;
     tried.retain(|(_, fit)| fit.chi2 < (1.0 - GAIN) * none);
     tried.sort_by(|a, b| a.1.chi2.total_cmp(&b.1.chi2));
     let mut seen = Vec::new();
@@ -104,13 +99,13 @@ pub(super) fn search(
         new
     });
     tried.truncate(JUDGED);
-    let rest = base.rest(&[]).map_err(super::super::unfit)?;
+    let rest = base.rest(&[])?;
     let judged = tried.into_par_iter().filter_map(|(form, fit)| {
         let on = with(form);
         let values = fit.values();
         let spoilt = on.rest(&values).ok()? > (1.0 + WORSE) * rest;
         let held_out = held_out(&on, &values, groups).ok()?;
-        let better = squares(&held_out) < (1.0 - GAIN) * squares(&before);
+        let better = squares(&held_out) < (1.0 - GAIN) * squares(before);
         (better && !spoilt).then_some(Judged {
             form,
             fit,
@@ -122,7 +117,7 @@ pub(super) fn search(
     told(1.0);
     alike.sort_by(|a, b| squares(&a.held_out).total_cmp(&squares(&b.held_out)));
     let Some(best) = alike.first().map(|best| squares(&best.held_out)) else {
-        return Ok(Found::default());
+        return Ok(alike);
     };
     let count = before.iter().flatten().count() as f64;
     let away = |j: &Judged| (squares(&j.held_out) - best) / (best / count).max(1.0);
@@ -136,5 +131,5 @@ pub(super) fn search(
     for judged in &mut alike {
         judged.probability = 1.0 / total;
     }
-    Ok(Found { alike })
+    Ok(alike)
 }
