@@ -86,13 +86,51 @@ impl Curves {
     /// # Errors
     /// If the file can't be read, or anything in it isn't understood.
     pub fn read(path: &Path, rows: Option<u32>) -> Result<Self, BadCurves> {
-        let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|e| BadCurves {
-            place: name.clone(),
+        let (name, text) = text(path)?;
+        Reader { name: &name }.curves(&text, rows)
+    }
+
+    /// The numbers of rows of the rods that a CSV file holds, ascending; a single none if it has no column `rows`.
+    ///
+    /// # Errors
+    /// If the file can't be read, or anything in it isn't understood.
+    pub fn rows(path: &Path) -> Result<Vec<Option<u32>>, BadCurves> {
+        let (name, text) = text(path)?;
+        let lines = Reader { name: &name }.lines(&text)?;
+        let mut rows: Vec<_> = lines.into_iter().map(|(rows, _)| rows).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        Ok(rows)
+    }
+
+    /// The angles of its points \[rad\], ascending, each once.
+    pub fn angles(&self) -> Vec<f64> {
+        let mut angles: Vec<f64> = self.points.iter().map(|point| point.angle).collect();
+        angles.sort_by(f64::total_cmp);
+        angles.dedup();
+        angles
+    }
+
+    /// Its points that `keep` chooses.
+    pub fn only(&self, keep: impl Fn(&Point) -> bool) -> Self {
+        let kept = self.points.iter().filter(|point| keep(point));
+        Self {
+            points: kept.copied().collect(),
+            ..self.clone()
+        }
+    }
+}
+
+/// Name and text of a file.
+fn text(path: &Path) -> Result<(String, String), BadCurves> {
+    let name = path.display().to_string();
+    match std::fs::read_to_string(path) {
+        Ok(text) => Ok((name, text)),
+        Err(e) => Err(BadCurves {
+            place: name,
             what: format!("can't be read ({e})"),
             remedy: "give a CSV file of measured curves that you may read".into(),
-        })?;
-        Reader { name: &name }.curves(&text, rows)
+        }),
     }
 }
 

@@ -1,7 +1,7 @@
 //! A rod's uncertain numbers from its measured curves.
 
-use super::{Bench, CharacteriseError, Comparison, Curves};
-use crate::config::Source;
+use super::{Bench, Beside, CharacteriseError, Comparison, Curves};
+use crate::config::{Problems, Source};
 use crate::identify::{Fit, Options, Parameter, Watch, fit};
 use std::ops::ControlFlow;
 
@@ -19,24 +19,35 @@ pub fn identify(
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<Fit, CharacteriseError> {
-    let mut angles: Vec<f64> = curves.points.iter().map(|point| point.angle).collect();
-    angles.sort_by(f64::total_cmp);
-    angles.dedup();
     let residuals = |at: &[f64]| {
         let sets: Vec<_> = parameters
             .iter()
             .zip(at)
             .map(|(p, value)| p.set(*value))
             .collect();
-        let problems = |e: crate::config::Problems| e.to_string();
-        let rod = source
-            .with(&sets)
-            .and_then(|source| bench.with(&source))
-            .map_err(problems)?;
-        let found = rod.characterise(&angles, &mut |_| ControlFlow::Continue(()));
-        let beside = Comparison::new(curves, &found.map_err(|e| e.to_string())?);
-        let residual = |b: &super::Beside| b.residual().map_err(str::to_owned);
-        beside.points.iter().map(residual).collect()
+        let problems = |e: Problems| e.to_string();
+        residuals(&source.with(&sets).map_err(problems)?, bench, curves)
     };
     Ok(fit(parameters, &residuals, options, watch)?)
+}
+
+/// Simulated less measured in units of the error bars, point by point, for a version of the scenario that `bench` has its
+/// rod from.
+///
+/// # Errors
+/// In words, if the version is wrong, or the rod has no steady state at a point.
+pub fn residuals(version: &Source, bench: &Bench, curves: &Curves) -> Result<Vec<f64>, String> {
+    let beside = compared(version, bench, curves)?;
+    let residual = |b: &Beside| b.residual().map_err(str::to_owned);
+    beside.points.iter().map(residual).collect()
+}
+
+/// Measured points beside those of a version of the scenario that `bench` has its rod from.
+///
+/// # Errors
+/// In words, if the version is wrong.
+pub fn compared(version: &Source, bench: &Bench, curves: &Curves) -> Result<Comparison, String> {
+    let rod = bench.with(version).map_err(|e| e.to_string())?;
+    let found = rod.characterise(&curves.angles(), &mut |_| ControlFlow::Continue(()));
+    Ok(Comparison::new(curves, &found.map_err(|e| e.to_string())?))
 }

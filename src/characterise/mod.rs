@@ -11,7 +11,7 @@ mod quantity;
 pub use bench::{Bench, Experiment, Measured};
 pub use comparison::{Beside, Comparison, LEAST_DEVIATION, Mismatch};
 pub use curves::{BadCurves, Curves, Point};
-pub use identify::identify;
+pub use identify::{compared, identify, residuals};
 pub use quantity::Quantity;
 
 use crate::config::Problems;

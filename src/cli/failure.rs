@@ -89,6 +89,7 @@ impl From<crate::diagnose::DiagnoseError> for Failure {
         match e {
             DiagnoseError::Scenario(problems) => Self::Scenario(problems),
             DiagnoseError::Recording(e) => e.into(),
+            DiagnoseError::Curves(e) => e.into(),
             DiagnoseError::Unfit(e) => CompareError::Unfit(e).into(),
         }
     }

@@ -6,6 +6,7 @@
 //! explains enough on the recordings that are trained on, worsens none of them, and holds on recordings held out.
 
 mod conclusion;
+pub mod curves;
 pub mod forward;
 mod locate;
 mod oracle;
@@ -18,6 +19,7 @@ mod standing;
 pub mod trial;
 pub mod verdict;
 
+use crate::characterise::CharacteriseError;
 use crate::compare::CompareError;
 use crate::config::{Problems, Source};
 use crate::identify::{Effect, Parameter, Robot};
@@ -61,6 +63,9 @@ pub enum DiagnoseError {
     /// A recording can't be used.
     #[error(transparent)]
     Recording(#[from] CompareError),
+    /// Measured curves can't be used.
+    #[error(transparent)]
+    Curves(#[from] CharacteriseError),
     /// The request makes no sense.
     #[error("{0}")]
     Unfit(String),

@@ -93,6 +93,27 @@ const MUCH: f64 = 4.0;
 /// Least damping of the steps.
 pub const DAMPING: f64 = 1e-6;
 
+/// A scenario at some values: those of its own numbers, then those of each form.
+///
+/// # Errors
+/// In words, if it has no place for them.
+pub fn version(
+    source: &Source,
+    own: &[Parameter],
+    forms: &[&Variant],
+    at: &[f64],
+) -> Result<Source, String> {
+    let (values, mut rest) = at.split_at(own.len());
+    let sets: Vec<_> = own.iter().zip(values).map(|(p, v)| p.set(*v)).collect();
+    let mut source = source.with(&sets).map_err(|e| e.to_string())?;
+    for form in forms {
+        let (values, others) = rest.split_at(form.quantities.len());
+        source = form.apply(&source, values).map_err(|e| e.to_string())?;
+        rest = others;
+    }
+    Ok(source)
+}
+
 impl<'a> Trial<'a> {
     /// Numbers that are measured.
     pub fn measured(&self) -> f64 {
@@ -128,15 +149,7 @@ impl<'a> Trial<'a> {
     /// # Errors
     /// In words, if it has no place for them.
     pub fn scenario(&self, at: &[f64]) -> Result<Source, String> {
-        let (own, mut rest) = at.split_at(self.own.len());
-        let sets: Vec<_> = self.own.iter().zip(own).map(|(p, v)| p.set(*v)).collect();
-        let mut source = self.source.with(&sets).map_err(|e| e.to_string())?;
-        for form in &self.forms {
-            let (values, others) = rest.split_at(form.quantities.len());
-            source = form.apply(&source, values).map_err(|e| e.to_string())?;
-            rest = others;
-        }
-        Ok(source)
+        version(self.source, self.own, &self.forms, at)
     }
 
     /// Values at which the last form is not there, after those of everything before it.

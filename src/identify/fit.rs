@@ -262,6 +262,9 @@ fn summary<R: Residuals + ?Sized>(problem: &Problem<'_, R>, best: &Descent) -> F
 fn covariance(jacobian: &DMatrix<f64>, free: &[usize]) -> DMatrix<f64> {
     let n = jacobian.ncols();
     let mut covariance = DMatrix::zeros(n, n);
+    if free.is_empty() {
+        return covariance;
+    }
     let eigen = jacobian
         .select_columns(free)
         .tr_mul(&jacobian.select_columns(free))

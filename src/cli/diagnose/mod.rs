@@ -1,22 +1,37 @@
 //! `auxetica diagnose`
 
+mod curves;
+
 use super::progress::shared;
 use super::table::table;
-use super::{Failure, ScenarioArgs, print, write_whole};
+use super::{Failure, print, write_whole};
+use crate::config::Source;
 use crate::diagnose::verdict::{Diagnosis, Estimated, Fitted, Noticeable};
-use crate::diagnose::{Request, diagnose};
+use crate::diagnose::{DiagnoseError, Request, diagnose};
+use serde::Serialize;
 use std::path::{Path, PathBuf};
 
 #[derive(clap::Args)]
 pub(super) struct Options {
-    #[command(flatten)]
-    scenario: ScenarioArgs,
+    /// Scenario file; by measured curves, one for each rod.
+    #[arg(required = true, value_name = "SCENARIO")]
+    scenarios: Vec<PathBuf>,
+    /// Replace a value, as in `rods[0].length=0.12` or `laws[*].apply.factor=0.009`; may be given several times.
+    #[arg(long, value_name = "PATH=VALUE")]
+    set: Vec<String>,
     /// Recordings to train on, two at least.
-    #[arg(long, value_name = "DIR", num_args = 1.., required = true)]
+    #[arg(long, value_name = "DIR", num_args = 1.., required_unless_present = "curves")]
     train: Vec<PathBuf>,
     /// Recordings that nothing is fitted to, to judge by.
     #[arg(long, value_name = "DIR", num_args = 1..)]
     holdout: Vec<PathBuf>,
+    /// Diagnose rods by their measured curves instead: a CSV file with the columns quantity, unit, twist_angle_deg, value,
+    /// error_minus, error_plus and, for several rods, rows.
+    #[arg(long, value_name = "FILE.csv", conflicts_with_all = ["train", "holdout", "report"])]
+    curves: Option<PathBuf>,
+    /// The scenarios' rods in that file, by their numbers of rows; by default those that are as long.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', requires = "curves")]
+    rows: Vec<u32>,
     /// Effects to try, separated by commas; all if left out (`auxetica plugins` lists them).
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     effects: Vec<String>,
@@ -26,7 +41,7 @@ pub(super) struct Options {
     /// Write a page for the browser.
     #[arg(long, value_name = "FILE.html")]
     report: Option<PathBuf>,
-    /// Write the scenario with the named effects.
+    /// Write the scenario with the named effects; of several, each with its own name behind a dash.
     #[arg(long, value_name = "FILE.ron")]
     write_scenario: Option<PathBuf>,
     /// Seed of the calibration's second start.
@@ -38,43 +53,28 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
-    let source = options.scenario.load()?;
+    match &options.curves {
+        Some(file) => curves::run(options, file, quiet),
+        None => by_recordings(options, quiet),
+    }
+}
+
+fn by_recordings(options: &Options, quiet: bool) -> Result<(), Failure> {
+    let [source] = &options.load()?[..] else {
+        let what = "recordings are of one robot, and several scenarios are given; give one";
+        return Err(Failure::Unknown(what.into()));
+    };
     let request = Request {
-        source: &source,
+        source,
         train: &options.train,
         holdout: &options.holdout,
         effects: &options.effects,
         seed: options.seed,
     };
     let told = shared("diagnosing", quiet);
-    let work = || diagnose(&request, &told);
-    let (diagnosis, augmented) = match options.jobs {
-        None => work()?,
-        Some(jobs) => {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(jobs.max(1))
-                .build();
-            let pool = pool.map_err(|e| {
-                crate::compare::CompareError::Unfit(format!(
-                    "no {jobs} threads could be started: {e}"
-                ))
-            })?;
-            pool.install(work)?
-        }
-    };
+    let (diagnosis, augmented) = options.at_work(|| diagnose(&request, &told))?;
     drop(told);
-    let to_stdout = options.json.as_deref() == Some(Path::new("-"));
-    if !to_stdout {
-        print(&show(&diagnosis))?;
-    }
-    if let Some(path) = &options.json {
-        let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
-        if to_stdout {
-            print(&text)?;
-        } else {
-            write_whole(path, &(text + "\n"))?;
-        }
-    }
+    options.tell(&diagnosis, show)?;
     if let Some(path) = &options.write_scenario {
         write_whole(path, augmented.text())?;
     }
@@ -85,6 +85,46 @@ pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
         )?;
     }
     Ok(())
+}
+
+impl Options {
+    fn load(&self) -> Result<Vec<Source>, Failure> {
+        let load = |file: &PathBuf| Ok(Source::load(file, &self.set)?);
+        self.scenarios.iter().map(load).collect()
+    }
+
+    /// Does the work with as many threads as are asked for.
+    fn at_work<T: Send>(
+        &self,
+        work: impl FnOnce() -> Result<T, DiagnoseError> + Send,
+    ) -> Result<T, Failure> {
+        let Some(jobs) = self.jobs else {
+            return Ok(work()?);
+        };
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(jobs.max(1))
+            .build();
+        let pool =
+            pool.map_err(|e| Failure::Unknown(format!("no {jobs} threads could be started: {e}")))?;
+        Ok(pool.install(work)?)
+    }
+
+    /// Shows a diagnosis, and writes it as JSON.
+    fn tell<T: Serialize>(&self, diagnosis: &T, show: fn(&T) -> String) -> Result<(), Failure> {
+        let to_stdout = self.json.as_deref() == Some(Path::new("-"));
+        if !to_stdout {
+            print(&show(diagnosis))?;
+        }
+        let Some(path) = &self.json else {
+            return Ok(());
+        };
+        let text = serde_json::to_string_pretty(diagnosis).expect("a diagnosis is plain data");
+        if to_stdout {
+            print(&text)
+        } else {
+            write_whole(path, &(text + "\n"))
+        }
+    }
 }
 
 /// The diagnosis for people.
