@@ -24,8 +24,8 @@ const CLOCK: f64 = 0.01;
 /// Share of the robot's speed that quasi-static states of moving rows may be wrong by, as a time [s].
 const INERTIA: f64 = 0.01;
 
-/// Samples of each phase that are taken of a recording at most, evenly: slow trajectories show the same again and again.
-const MOST: usize = 60;
+/// Samples that are taken of a recording at most; slow trajectories show the same again and again.
+const MOST: usize = 200;
 /// Deviation of poses from a published table, which doesn't tell it: position [m], rotation [rad].
 const PUBLISHED: (f64, f64) = (1e-4, 1e-3);
 
@@ -210,18 +210,14 @@ impl Samples {
                 recording.name
             )));
         }
-        for phase in [Phase::Moving, Phase::Stopped, Phase::Settled] {
-            let every = list
-                .iter()
-                .filter(|s| s.phase == phase)
-                .count()
-                .div_ceil(MOST);
-            let mut count = 0;
-            list.retain(|s| {
-                count += usize::from(s.phase == phase);
-                s.phase != phase || (count - 1).is_multiple_of(every)
-            });
-        }
+        // evenly of each phase, since phases alternate
+        let every = list.len().div_ceil(MOST);
+        let mut counts = [0; 3];
+        list.retain(|sample| {
+            let count = &mut counts[sample.phase as usize];
+            *count += 1;
+            (*count - 1_usize).is_multiple_of(every)
+        });
         let still = still(motors);
         let lively = |row: &usize| {
             let recent = row.saturating_sub(RELAXING)..*row;
