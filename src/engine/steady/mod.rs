@@ -71,7 +71,7 @@ const CONTRACTION: f64 = 0.5;
 const HARMLESS: f64 = 0.02;
 /// Factor by which corrections must shrink for the tangent of an earlier state to be kept, so that they are small enough
 /// before iterations run out.
-const REUSE: f64 = 0.3;
+const REUSE: f64 = 0.4;
 /// Share of the tolerance that the last correction must stay below if it is that of an earlier state's tangent.
 const REMAINDER: f64 = 0.01;
 /// How far stations may move for a tangent to be kept.
