@@ -7,7 +7,7 @@ use auxetica::config::{Plugin, options, plugins};
 use program::works;
 
 /// A crate that isn't linked, a plugin that is renamed or one that is new shows here.
-const SHIPPED: [(&str, &str); 67] = [
+const SHIPPED: [(&str, &str); 70] = [
     ("boundary", "Clamp"),
     ("boundary", "Hold"),
     ("boundary", "MotorAngle"),
@@ -23,6 +23,7 @@ const SHIPPED: [(&str, &str); 67] = [
     ("effects", "AuxeticNonlinearity"),
     ("effects", "AxialNonlinearity"),
     ("effects", "BacklashEffect"),
+    ("effects", "BaseComplianceEffect"),
     ("effects", "BendingAnisotropy"),
     ("effects", "BendingNonlinearity"),
     ("effects", "CrossCoupling"),
@@ -33,6 +34,7 @@ const SHIPPED: [(&str, &str); 67] = [
     ("effects", "GravityEffect"),
     ("effects", "HysteresisEffect"),
     ("effects", "IntrinsicCurvature"),
+    ("effects", "JointClearance"),
     ("effects", "JointCompliance"),
     ("effects", "KelvinVoigtEffect"),
     ("effects", "MarkerOffset"),
@@ -64,6 +66,7 @@ const SHIPPED: [(&str, &str); 67] = [
     ("inputs", "Together"),
     ("joints", "SpringDamper"),
     ("laws", "Auxetic"),
+    ("laws", "BaseCompliance"),
     ("laws", "Coupling"),
     ("laws", "Creep"),
     ("laws", "Drift"),

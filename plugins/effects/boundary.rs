@@ -27,6 +27,23 @@ effect!(
 );
 
 effect!(
+    /// The base gives way.
+    BaseComplianceEffect, "base_compliance", Boundary,
+    "the base gives way where the rods are clamped",
+    "tilt = (m + r x f) / k_tau, d = f / k_F, at each rod's motor",
+    "a marker on the base beside a rod; push the platform",
+    "springs in series",
+    |_robot| vec![
+        Variant::new("in rotation")
+            .number("rotational stiffness", "N m/rad", (500.0, 5.0), (0.1, 500.0))
+            .append("laws", "(apply: BaseCompliance(rotational_stiffness: {0}))"),
+        Variant::new("in translation")
+            .number("stiffness", "N/m", (2e5, 5e3), (50.0, 2e5))
+            .append("laws", "(apply: BaseCompliance(stiffness: {0}))"),
+    ]
+);
+
+effect!(
     /// Play at reversals.
     BacklashEffect, "backlash", Boundary,
     "the motors have play: a rod stays behind when its motor reverses",

@@ -24,3 +24,26 @@ effect!(
         ]
     }
 );
+
+effect!(
+    /// Joints have play.
+    JointClearance, "joint_clearance", Joint,
+    "the joints between rods and platform have play",
+    "f = k_F (d - g d / |d|), tau likewise, once the gap g is crossed",
+    "shake the platform; invert the robot",
+    "dead zone, smoothed where little load seats the joint",
+    |robot| {
+        if robot.joints == 0 {
+            return vec![];
+        }
+        vec![
+            Variant::new("in rotation")
+                .number("rotational clearance", "rad", (0.0, 3e-3), (0.0, 0.2))
+                .set("joints[*].apply.rotational_clearance", "{0}"),
+            // not more than the stiff joint is displaced anyway, or it would not be noticed to first order
+            Variant::new("in translation")
+                .number("clearance", "m", (0.0, 5e-5), (0.0, 2e-3))
+                .set("joints[*].apply.clearance", "{0}"),
+        ]
+    }
+);

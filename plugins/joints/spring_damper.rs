@@ -1,5 +1,6 @@
-//! The spring-damper joint of Stölzle et al. 2023, eq. 6-7.
+//! The spring-damper joint of Stölzle et al. 2023, eq. 6-7, which may have play.
 
+use crate::clearance;
 use auxetica_engine::{
     Inputs, Joint, JointLoad, Moment, NonNegative, Signal, Site, Wrench, register, rotation,
 };
@@ -7,7 +8,8 @@ use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-/// Holds two bodies together as they were at rest, by springs and dampers in translation and rotation. Without
+/// Holds two bodies together as they were at rest, by springs and dampers in translation and rotation, once their play is
+/// used up. Without
 /// rotational stiffness it is a ball joint, with a `twist` a motor that stands on the second. The defaults are those of the paper's robot (section II-E).
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -15,6 +17,12 @@ pub struct SpringDamper {
     /// Translational stiffness k_F [N/m].
     #[serde(default = "stiffness")]
     stiffness: NonNegative,
+    /// Play in translation, to every side [m].
+    #[serde(default)]
+    clearance: NonNegative,
+    /// Play in rotation, to every side [rad].
+    #[serde(default)]
+    rotational_clearance: NonNegative,
     /// Translational damping nu_F [N s/m].
     #[serde(default)]
     damping: NonNegative,
@@ -40,6 +48,10 @@ fn rotational_stiffness() -> NonNegative {
     NonNegative::new(20.0).expect("the paper's stiffness is positive")
 }
 
+/// Force [N] and torque [N m] at which 70 % of the play is crossed: small beside what rods pass on in motion, and not so small
+/// that the joint has no stiffness to speak of before, which solvers don't like.
+const SEATING: (f64, f64) = (0.5, 5e-3);
+
 /// The first body's pose at rest, seen from the second.
 #[derive(Clone, Debug, Default)]
 struct Rest {
@@ -57,15 +69,18 @@ impl Joint for SpringDamper {
     fn load(&self, now: &Moment<'_>, a: &Site, b: &Site) -> JointLoad {
         let attachment = b.position + b.director.tr_mul(&self.rest.lever);
         let speed = b.velocity + b.director.tr_mul(&b.omega.cross(&self.rest.lever));
-        let force =
-            (attachment - a.position) * *self.stiffness + (speed - a.velocity) * *self.damping;
+        let apart = attachment - a.position;
+        let force = clearance::load(apart, *self.stiffness, *self.clearance, SEATING.0)
+            + (speed - a.velocity) * *self.damping;
 
         let mut wanted = self.rest.turn * b.director;
         if let Some(twist) = &self.twist {
             wanted = rotation::turned(&wanted, &(Vector3::z() * twist.at(now)));
         }
         let to_a = a.director * b.director.transpose();
-        let torque = rotation::between(&a.director, &wanted) * *self.rotational_stiffness
+        let turn = rotation::between(&a.director, &wanted);
+        let (stiffness, gap) = (*self.rotational_stiffness, *self.rotational_clearance);
+        let torque = clearance::load(turn, stiffness, gap, SEATING.1)
             + (to_a * b.omega - a.omega) * *self.rotational_damping;
         JointLoad {
             on_a: Wrench { force, torque },

@@ -1,6 +1,7 @@
 //! What real rods do that linear elastic ones don't: rod laws that act on top of those before them. Rest lengths and
 //! rigidities are as built, or as the laws before have left them; stresses and couples add.
 
+mod base_compliance;
 mod branch;
 mod coupling;
 mod creep;
@@ -14,6 +15,7 @@ mod nonlinear;
 mod permanent_set;
 mod stiffness;
 
+pub use base_compliance::BaseCompliance;
 pub use coupling::Coupling;
 pub use creep::Creep;
 pub use drift::Drift;

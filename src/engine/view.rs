@@ -126,6 +126,10 @@ pub trait ReadBody {
     fn rest_voronoi(&self, v: usize) -> f64 {
         self.bodies().rest_voronoi[self.at(v)]
     }
+    /// Dilatation of cell `v`: present over rest length \[-\].
+    fn voronoi_dilatation(&self, v: usize) -> f64 {
+        self.bodies().voronoi_dilatation[self.at(v)]
+    }
     /// Length that the twist of cell `v` is referred to \[m\]: as built unless a rod law sets it.
     fn twist_length(&self, v: usize) -> f64 {
         self.bodies().twist_length[self.at(v)]

@@ -69,8 +69,9 @@ const LARGEST_TURN: f64 = 1.0;
 const CONTRACTION: f64 = 0.5;
 /// Corrections below this stay on the branch, whatever their ratio: a law's kink may cost one that doesn't shrink.
 const HARMLESS: f64 = 0.02;
-/// Factor by which corrections must shrink for the tangent of an earlier state to be kept.
-const REUSE: f64 = 0.5;
+/// Factor by which corrections must shrink for the tangent of an earlier state to be kept, so that they are small enough
+/// before iterations run out.
+const REUSE: f64 = 0.4;
 /// Share of the tolerance that the last correction must stay below if it is that of an earlier state's tangent.
 const REMAINDER: f64 = 0.01;
 /// How far stations may move for a tangent to be kept.
