@@ -1,6 +1,5 @@
 //! From fitted models to what a diagnosis says.
 
-use super::SOUND;
 use super::forward::NUMERICS;
 use super::locate;
 use super::samples::{Phase, Sample, Samples};
@@ -9,12 +8,11 @@ use super::standing::Standing;
 use super::verdict::{
     Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
 };
+use super::{LEFT, SOUND};
 use crate::identify::{Effect, Hooked, Parameter, Quantity};
 
 /// Share of the mismatch beyond noise that the named effects must explain.
 const EXPLAINED: f64 = 0.6;
-/// Mean squared residual beyond which what is left is not explained, however much is.
-const LEFT: f64 = 4.0;
 /// Deviations from its prior beyond which a calibrated number is told.
 const FAR: f64 = 2.5;
 

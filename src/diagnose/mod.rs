@@ -33,6 +33,8 @@ use verdict::Diagnosis;
 
 /// Mean squared residual up to which there is nothing to explain.
 const SOUND: f64 = 1.5;
+/// Mean squared residual beyond which what is left is not explained, however much is.
+const LEFT: f64 = 4.0;
 /// Most effects that are named together.
 const MOST: usize = 3;
 /// Most searches for a further effect; one may make another needless.

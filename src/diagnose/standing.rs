@@ -5,14 +5,14 @@ use super::scores::Scores;
 use super::search::{self, Candidate, Form};
 use super::shared::{self, Shared};
 use super::trial::{Linear, Trial};
-use super::{DiagnoseError, SOUND, unfit};
+use super::{DiagnoseError, LEFT, SOUND, unfit};
 use crate::config::Source;
 use crate::identify::Variant;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
 
-/// Share of chi2 that the first effect must explain to be named, and each further one.
+/// Share of chi2 that an effect must explain to be named, and a further one where little is left to explain.
 const GAIN: [f64; 2] = [0.25, 0.5];
 /// Shares of chi2 within which two effects can't be told apart, beside [`ODDS`].
 const ALIKE: f64 = 0.1;
@@ -113,7 +113,8 @@ impl<'a> Standing<'a> {
         let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
             return Ok(None);
         };
-        let gain = GAIN[self.named.len().min(1)];
+        let much = self.named.is_empty() || self.mean_square() > LEFT;
+        let gain = if much { GAIN[0] } else { GAIN[1] };
         if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
             return Ok(None);
         }
