@@ -10,8 +10,9 @@ use rayon::prelude::*;
 
 /// By how much a marker is off throughout a recording, a standard deviation: position [m], rotation [rad].
 const BIAS: (f64, f64) = (2e-5, 2e-4);
-/// How many times finer the mesh is whose difference is taken for the error of the mesh.
-const FINER: f64 = 2.0;
+/// How many times finer the meshes are whose differences are taken for errors of the mesh; what they do needn't be in
+/// proportion.
+const FINER: [f64; 2] = [2.0, 0.75];
 
 /// Shared errors, each a direction of whitened residuals along which the error is one standard deviation.
 #[derive(Default)]
@@ -40,9 +41,11 @@ impl Shared {
         shared
     }
 
-    /// The same, and what the mesh does, as [`mesh`] has it.
-    pub fn with(mut self, mesh: DVector<f64>) -> Self {
-        self.add(mesh);
+    /// The same, and what the mesh does, as [`meshes`] has it.
+    pub fn with(mut self, meshes: Vec<DVector<f64>>) -> Self {
+        for change in meshes {
+            self.add(change);
+        }
         self
     }
 
@@ -70,33 +73,32 @@ impl Shared {
     }
 }
 
-/// Whitened change of all residuals if the mesh of `source` were finer.
+/// Whitened changes of all residuals if the mesh of `source` were finer, and if it were coarser.
 ///
 /// # Errors
-/// If the scenario, or the same with a finer mesh, has no steady state at a sample.
-pub fn mesh(source: &Source, data: &[Samples]) -> Result<DVector<f64>, CompareError> {
-    let mut sets = Vec::new();
-    for group in 0.. {
-        let path = format!("rods[{group}].elements");
-        let Ok(elements) = source.number(&path) else {
-            break;
-        };
-        sets.push(format!("{path}={:.0}", FINER * elements));
-    }
-    let finer = source.with(&sets)?;
-    let apart = |samples: &Samples| -> Result<Vec<f64>, CompareError> {
-        let (fine, coarse) = rayon::join(
-            || differences(&finer, samples),
-            || differences(source, samples),
-        );
-        let (fine, coarse) = (fine?, coarse?);
-        let apart: Vec<f64> = fine.iter().zip(&coarse).map(|(f, c)| f - c).collect();
-        Ok(whitened(&apart, samples))
+/// If the scenario, or the same with another mesh, has no steady state at a sample.
+pub fn meshes(source: &Source, data: &[Samples]) -> Result<Vec<DVector<f64>>, CompareError> {
+    let all = |source: &Source| -> Result<DVector<f64>, CompareError> {
+        let each = data.par_iter().map(|samples| {
+            let apart = differences(source, samples)?;
+            Ok(whitened(&apart, samples))
+        });
+        let each = each.collect::<Result<Vec<_>, CompareError>>()?;
+        Ok(DVector::from_vec(each.concat()))
     };
-    let apart = data.par_iter().map(apart);
-    Ok(DVector::from_vec(
-        apart.collect::<Result<Vec<_>, _>>()?.concat(),
-    ))
+    let own = all(source)?;
+    let other = FINER.par_iter().map(|finer| {
+        let mut sets = Vec::new();
+        for group in 0.. {
+            let path = format!("rods[{group}].elements");
+            let Ok(elements) = source.number(&path) else {
+                break;
+            };
+            sets.push(format!("{path}={:.0}", (finer * elements).max(1.0)));
+        }
+        Ok(all(&source.with(&sets)?)? - &own)
+    });
+    other.collect()
 }
 
 #[cfg(test)]

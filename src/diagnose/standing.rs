@@ -225,11 +225,11 @@ fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<(Linear, Vec<f64>), Diagn
     }
     let source = trial.scenario(&fit.at).map_err(unfit)?;
     let biases = Shared::biases(trial.data);
-    // where the finer mesh has no steady states, its difference isn't known
-    let (shared, with_mesh) = match shared::mesh(&source, trial.data) {
-        Ok(mesh) => {
-            let with_mesh = trial.response(fit, &mesh);
-            (biases.with(mesh), with_mesh)
+    // where another mesh has no steady states, its difference isn't known
+    let (shared, with_mesh) = match shared::meshes(&source, trial.data) {
+        Ok(meshes) => {
+            let with_mesh = trial.response(fit, &meshes[0]);
+            (biases.with(meshes), with_mesh)
         }
         Err(_) => (biases, still),
     };
