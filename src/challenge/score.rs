@@ -155,12 +155,14 @@ fn judge(truth: Truth, said: &Diagnosis, oracle: Option<f64>) -> Result {
     let ids: Vec<String> = (said.effects.iter().map(|e| e.id.clone()))
         .chain(said.alternatives.iter().map(|a| a.id.clone()))
         .collect();
+    // what is said beside "unexplained" isn't claimed
+    let claimed = said.verdict != Kind::Unexplained;
     let right = match truth.effects.len() {
         0 => said.verdict == Kind::None,
         1 if truth.effects[0].id == Concealed::FOREIGN => said.verdict == Kind::Unexplained,
-        _ => truth.effects.iter().all(|e| ids.contains(&e.id)),
+        _ => claimed && truth.effects.iter().all(|e| ids.contains(&e.id)),
     };
-    let first = said.effects.first();
+    let first = said.effects.first().filter(|_| claimed);
     let hook = |e: &Concealed| first.is_some_and(|f| f.hook.name() == e.hook);
     let mut values = Vec::new();
     for e in &truth.effects {
@@ -205,16 +207,16 @@ impl Tally {
                 }
                 1 if foreign && visible => {
                     tally.foreigners.0 += 1;
-                    let silent =
-                        [Kind::Effect, Kind::Recording, Kind::Several].contains(&r.verdict);
-                    tally.foreigners.1 += usize::from(silent);
+                    let warned = [Kind::Unexplained, Kind::None];
+                    tally.foreigners.1 += usize::from(!warned.contains(&r.verdict));
                 }
                 1 if visible && !foreign => {
                     let id = &r.truth.effects[0].id;
                     tally.singles.0 += 1;
                     tally.singles.1 += usize::from(r.right);
-                    tally.first += usize::from(r.said.first() == Some(id));
-                    tally.third += usize::from(r.said.iter().take(3).any(|s| s == id));
+                    tally.first += usize::from(r.right && r.said.first() == Some(id));
+                    let third = r.said.iter().take(3).any(|s| s == id);
+                    tally.third += usize::from(r.right && third);
                     tally.hooks += usize::from(r.right_hook);
                 }
                 2 if visible => {

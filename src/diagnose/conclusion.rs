@@ -66,7 +66,11 @@ pub(super) fn conclude(
             Kind::None => noticeable(baseline, forms, effects),
             _ => vec![],
         },
-        alarms: alarms(own, &last.fit.at),
+        alarms: [
+            alarms(own, &last.fit.at),
+            last.scores.worsened(&baseline.scores),
+        ]
+        .concat(),
         audit: audit(train, holdout),
         seconds: 0.0,
     }
@@ -82,6 +86,7 @@ fn kind(
         _ if baseline.mean_square() < SOUND => Kind::None,
         [] => Kind::Unexplained,
         _ if explained < EXPLAINED || last.mean_square() > LEFT => Kind::Unexplained,
+        _ if !last.scores.worsened(&baseline.scores).is_empty() => Kind::Unexplained,
         [_] if !last.alternatives.is_empty() => Kind::Class,
         [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
         [_] => Kind::Effect,

@@ -48,19 +48,26 @@ impl Scores {
         })
     }
 
-    /// Whether a recording is done worse than before, or those held out together no better.
-    pub(super) fn worse_than(&self, before: &Self) -> bool {
-        let pairs = || {
-            self.train
-                .iter()
-                .chain(&self.holdout)
-                .zip(before.train.iter().chain(&before.holdout))
-        };
-        let sum = |scores: &[Score]| scores.iter().map(|s| s.chi2).sum::<f64>();
+    /// Recordings, trained on or held out, that are done worse than before, in words.
+    pub(super) fn worsened(&self, before: &Self) -> Vec<String> {
+        let now = || self.train.iter().chain(&self.holdout);
+        let pairs = || now().zip(before.train.iter().chain(&before.holdout));
         let gain: f64 = pairs().map(|(now, then)| then.chi2 - now.chi2).sum();
         let most = |then: &Score| (WORSE[0] * then.chi2).max(WORSE[1] * gain);
-        pairs().any(|(now, then)| now.chi2 - then.chi2 > most(then))
-            || sum(&self.holdout) > sum(&before.holdout)
+        let worse = pairs().filter(|(now, then)| now.chi2 - then.chi2 > most(then));
+        let words = |(now, then): (&Score, &Score)| {
+            format!(
+                "what is named makes recording {} worse, from {:.3} mm and {:.2} mrad to {:.3} mm and {:.2} mrad: more is \
+                 missing, or something else",
+                now.name, then.rms.0, then.rms.1, now.rms.0, now.rms.1
+            )
+        };
+        worse.map(words).collect()
+    }
+
+    /// Sum of the squared residuals of recordings held out.
+    pub(super) fn held_out_chi2(&self) -> f64 {
+        self.holdout.iter().map(|s| s.chi2).sum()
     }
 
     pub(super) fn fitted(&self, parameters: Vec<Estimated>, reduced_chi2: f64) -> Fitted {

@@ -129,7 +129,7 @@ impl<'a> Standing<'a> {
         let Ok(scores) = Scores::of(&scenario, trial.data, holdout) else {
             return Ok(None);
         };
-        if scores.worse_than(&self.scores) {
+        if scores.held_out_chi2() > self.scores.held_out_chi2() {
             return Ok(None);
         }
         let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
