@@ -14,6 +14,8 @@ use std::sync::Arc;
 
 /// Share of chi2 that an effect must explain to be named, and a further one where little is left to explain.
 const GAIN: [f64; 2] = [0.25, 0.5];
+/// How many effects are held against recordings held out before a search is given up.
+const TRIED: usize = 3;
 /// Shares of chi2 within which two effects can't be told apart, beside [`ODDS`].
 const ALIKE: f64 = 0.1;
 /// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
@@ -109,15 +111,33 @@ impl<'a> Standing<'a> {
         told: &(dyn Fn(f64) + Sync),
     ) -> Result<Option<Self>, DiagnoseError> {
         let used: Vec<usize> = self.named.iter().map(|(f, _)| forms[*f].effect).collect();
-        let found = search::round(&self.trial, &self.fit, forms, &used, told);
-        let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
-            return Ok(None);
-        };
+        let mut found = search::round(&self.trial, &self.fit, forms, &used, told);
         let much = self.named.is_empty() || self.mean_square() > LEFT;
         let gain = if much { GAIN[0] } else { GAIN[1] };
-        if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
-            return Ok(None);
+        for _ in 0..TRIED {
+            let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
+                break;
+            };
+            if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
+                break;
+            }
+            if let Some(next) = self.joined(best, (probability, alternatives), forms, holdout)? {
+                return Ok(Some(next));
+            }
+            let refused = forms[best.form].effect;
+            found.retain(|c| forms[c.form].effect != refused);
         }
+        Ok(None)
+    }
+
+    /// The same with a form that was fitted, unless recordings held out refuse it.
+    fn joined(
+        &self,
+        best: &Candidate,
+        (probability, alternatives): (f64, Vec<usize>),
+        forms: &'a [Form],
+        holdout: &[Samples],
+    ) -> Result<Option<Self>, DiagnoseError> {
         let mut named = self.named.clone();
         named.push((best.form, probability));
         let mut trial = self.trial.with(&forms[best.form].variant);
