@@ -3,7 +3,7 @@
 
 mod program;
 
-use program::{refused, shipped, works};
+use program::{list, number, refused, rod, shipped, works};
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::fs;
@@ -11,27 +11,10 @@ use std::path::Path;
 
 const HEADER: &str = "quantity,unit,twist_angle_deg,value,error_minus,error_plus\n";
 
-fn rod(rows: u32) -> String {
-    let path = shipped(&format!("hsa_rod_{rows}rows.ron"));
-    path.to_str().expect("plain").to_owned()
-}
-
 /// `characterise --json -`
 fn characterised(folder: &Path, arguments: &[&str]) -> Value {
     let all = [&["characterise"], arguments, &["--json", "-"]].concat();
     serde_json::from_str(&works(folder, &all)).expect("JSON alone on stdout")
-}
-
-fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("{value} is a number"))
-}
-
-fn list(value: &Value) -> &[Value] {
-    value
-        .as_array()
-        .unwrap_or_else(|| panic!("{value} is a list"))
 }
 
 #[test]

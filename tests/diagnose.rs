@@ -5,6 +5,8 @@
 mod common;
 
 use auxetica::config::Source;
+use auxetica::diagnose::forward::{differences, platform_rms};
+use auxetica::diagnose::samples::{Phase, Samples};
 use auxetica::diagnose::verdict::{Diagnosis, Kind};
 use auxetica::diagnose::{Request, diagnose};
 use std::path::{Path, PathBuf};
@@ -78,9 +80,9 @@ fn a_rod_that_extends_less_is_found_and_the_scenario_with_it_runs_to_the_same_fi
     // the text stands alone
     let again = Source::from_text("again", augmented.text(), &[]).unwrap_or_else(|e| panic!("{e}"));
     let case = common::data("concealed/open_e/holdout_3_mix").expect("it was there");
-    let samples = auxetica::diagnose::samples::Samples::read(&case).expect("a recording");
-    let apart = auxetica::diagnose::forward::differences(&again, &samples).expect("states");
-    let rms = auxetica::diagnose::forward::platform_rms(&apart, &samples).0;
+    let samples = Samples::read(&case).expect("a recording");
+    let apart = differences(&again, &samples).expect("states");
+    let rms = platform_rms(&apart, &samples).0;
     let told = d
         .augmented
         .recordings
@@ -103,6 +105,39 @@ fn what_no_effect_on_offer_explains_is_said_to_be_unexplained() {
     // the calibration has tried to make up for it
     let told = |alarm: &String| alarm.starts_with("shear rigidity");
     assert!(d.alarms.iter().any(told), "{:?}", d.alarms);
+}
+
+#[test]
+fn real_recordings_are_reduced_to_samples_with_or_without_motion_capture() {
+    let (Some(circles), Some(random)) = (
+        common::data("recordings/20221011_184131"),
+        common::data("recordings/20221012_140717"),
+    ) else {
+        return;
+    };
+    let read = |folder: &Path| Samples::read(folder).unwrap_or_else(|e| panic!("{e}"));
+    let circles = read(&circles);
+    let of = |samples: &Samples, phase: Phase| {
+        let same = samples.list.iter().filter(|s| s.phase == phase);
+        same.count()
+    };
+    // 226 dwells, each with a beginning and an end, of which every fourth is taken
+    assert!(circles.list.len() <= 200, "{}", circles.list.len());
+    assert_eq!(
+        (of(&circles, Phase::Stopped), of(&circles, Phase::Settled)),
+        (57, 57)
+    );
+    // 500 steady poses, of which every third is taken, but those with a motor in motion
+    let random = read(&random);
+    let settled = of(&random, Phase::Settled);
+    assert_eq!(settled, random.list.len());
+    assert!((130..=167).contains(&settled), "{settled}");
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_recorded.ron");
+    let source = Source::load(&file, &[]).unwrap_or_else(|e| panic!("{e}"));
+    let apart = differences(&source, &random).unwrap_or_else(|e| panic!("{e}"));
+    // `compare` finds 3.08 mm over all 500
+    let rms = platform_rms(&apart, &random).0;
+    assert!((rms - 3.08).abs() < 0.3, "{rms} mm");
 }
 
 #[test]

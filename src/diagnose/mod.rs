@@ -99,8 +99,9 @@ pub fn diagnose(
     let worst = baseline.scores.worst_mm();
     if worst > OTHER_ROBOT {
         return Err(DiagnoseError::Unfit(format!(
-            "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, or its motors are in \
-             another order; give the scenario of the robot that was recorded"
+            "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, its motors are in another \
+             order, or it has other units (positions are in m, motors in ticks of which 4096 are a turn); give the scenario \
+             of the robot that was recorded"
         )));
     }
     let mut last = baseline.clone();

@@ -1,6 +1,7 @@
 //! Running the program, for tests of what people see.
 #![allow(dead_code, reason = "each test uses some of it")]
 
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
@@ -93,4 +94,24 @@ pub fn shipped(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("scenarios")
         .join(name)
+}
+
+/// The shipped scenario of the rod with so many rows.
+pub fn rod(rows: u32) -> String {
+    let path = shipped(&format!("hsa_rod_{rows}rows.ron"));
+    path.to_str().expect("plain").to_owned()
+}
+
+/// A number in JSON.
+pub fn number(value: &Value) -> f64 {
+    value
+        .as_f64()
+        .unwrap_or_else(|| panic!("{value} is a number"))
+}
+
+/// A list in JSON.
+pub fn list(value: &Value) -> &[Value] {
+    value
+        .as_array()
+        .unwrap_or_else(|| panic!("{value} is a list"))
 }
