@@ -85,7 +85,9 @@ fn kind(
     match last.named[..] {
         _ if baseline.mean_square() < SOUND => Kind::None,
         [] => Kind::Unexplained,
-        _ if explained < EXPLAINED || last.mean_square() > LEFT => Kind::Unexplained,
+        // what is left is noise, however little there was to explain
+        _ if explained < EXPLAINED && last.mean_square() >= SOUND => Kind::Unexplained,
+        _ if last.mean_square() > LEFT => Kind::Unexplained,
         _ if !last.scores.worsened(&baseline.scores).is_empty() => Kind::Unexplained,
         [_] if !last.alternatives.is_empty() => Kind::Class,
         [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
