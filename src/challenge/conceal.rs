@@ -76,6 +76,9 @@ pub fn conceal(
             "the scenario has {rods} rods, but recordings are of a robot with {recorded}; give a scenario of that robot"
         )));
     }
+    let above = out.parent().unwrap_or(Path::new("."));
+    std::fs::create_dir_all(above).map_err(|e| ChallengeError::file(above, e))?;
+    // what is there already is kept
     std::fs::create_dir(out).map_err(|e| ChallengeError::file(out, e))?;
     let count = spec.controls + spec.singles + spec.doubles + spec.foreigners;
     // the order of kinds tells nothing
