@@ -54,8 +54,8 @@ fn an_axial_force_loads_the_lever_where_it_is() {
     let angle = (0..100).fold(0.0_f64, |angle, _| {
         arm / k * (force.x * angle.cos() - force.z * angle.sin())
     });
-    println!("{} m, a rigid rod {} m", tip.x, arm * angle.sin());
-    assert_relative_eq!(tip.x, arm * angle.sin(), max_relative = 1e-2);
+    // the rod itself gives way a little
+    assert_relative_eq!(tip.x, arm * angle.sin(), max_relative = 3e-3);
 }
 
 #[test]

@@ -8,7 +8,6 @@ use auxetica::identify::{Effect, Quantity, Robot, Variant};
 use auxetica::recordings::{RADIANS_PER_TICK, Recording};
 use rayon::prelude::*;
 use std::path::Path;
-use std::sync::Arc;
 
 /// Winding of the four rods at set-points [rad].
 const TOUR: [[f64; 4]; 8] = [
@@ -92,14 +91,7 @@ fn the_numbers_of_every_effect_are_found_in_a_recording_made_with_it() {
         let recording = recorded(&robot_with, &robot);
         let data = recording.and_then(|recording| Samples::of(&recording));
         let data = [data.unwrap_or_else(|e| panic!("{what}: {e}"))];
-        let trial = Trial {
-            source: &source,
-            own: &[],
-            forms: vec![form],
-            data: &data,
-            shared: Arc::default(),
-            doubt: 1.0,
-        };
+        let trial = Trial::new(&source, &[], &data).with(form);
         let at = |values: &[f64]| {
             trial
                 .start(values, None)

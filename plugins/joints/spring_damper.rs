@@ -9,8 +9,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// Holds two bodies together as they were at rest, by springs and dampers in translation and rotation, once their play is
-/// used up. Without
-/// rotational stiffness it is a ball joint, with a `twist` a motor that stands on the second. The defaults are those of the paper's robot (section II-E).
+/// used up. Without rotational stiffness it is a ball joint, with a `twist` a motor that stands on the second. The defaults
+/// are those of the paper's robot (section II-E).
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpringDamper {

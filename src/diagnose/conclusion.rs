@@ -30,7 +30,9 @@ pub(super) fn conclude(
         _ => 1.0,
     };
     let effect = |form: usize| &effects[forms[form].effect];
-    let kind = kind(baseline, last, explained, |form| effect(form).hook());
+    let worsened = last.scores.worsened(&baseline.scores);
+    let hook = |form| effect(form).hook();
+    let kind = kind(baseline, last, (explained, !worsened.is_empty()), hook);
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
     let ids: Vec<String> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
@@ -66,11 +68,7 @@ pub(super) fn conclude(
             Kind::None => noticeable(baseline, forms, effects),
             _ => vec![],
         },
-        alarms: [
-            alarms(own, &last.fit.at),
-            last.scores.worsened(&baseline.scores),
-        ]
-        .concat(),
+        alarms: [alarms(own, &last.fit.at), worsened].concat(),
         audit: audit(train, holdout),
         seconds: 0.0,
     }
@@ -79,7 +77,7 @@ pub(super) fn conclude(
 fn kind(
     baseline: &Standing<'_>,
     last: &Standing<'_>,
-    explained: f64,
+    (explained, worsens): (f64, bool),
     hook: impl Fn(usize) -> Hooked,
 ) -> Kind {
     match last.named[..] {
@@ -87,8 +85,7 @@ fn kind(
         [] => Kind::Unexplained,
         // what is left is noise, however little there was to explain
         _ if explained < EXPLAINED && last.mean_square() >= SOUND => Kind::Unexplained,
-        _ if last.mean_square() > LEFT => Kind::Unexplained,
-        _ if !last.scores.worsened(&baseline.scores).is_empty() => Kind::Unexplained,
+        _ if worsens || last.mean_square() > LEFT => Kind::Unexplained,
         [_] if !last.alternatives.is_empty() => Kind::Class,
         [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
         [_] => Kind::Effect,

@@ -27,7 +27,6 @@ pub use oracle::oracle;
 use samples::Samples;
 use standing::Standing;
 use std::path::PathBuf;
-use std::sync::Arc;
 use trial::Trial;
 use verdict::Diagnosis;
 
@@ -35,6 +34,8 @@ use verdict::Diagnosis;
 const SOUND: f64 = 1.5;
 /// Mean squared residual beyond which what is left is not explained, however much is.
 const LEFT: f64 = 4.0;
+/// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
+const ODDS: f64 = 6.0;
 /// Most effects that are named together.
 const MOST: usize = 3;
 /// Most searches for a further effect; one may make another needless.
@@ -86,14 +87,7 @@ pub fn diagnose(
     let (train, holdout) = read(request)?;
     let effects = chosen(request.effects)?;
     let forms = search::forms(&effects, &Robot::of(request.source)?);
-    let empty = Trial {
-        source: request.source,
-        own: &own,
-        forms: Vec::new(),
-        data: &train,
-        shared: Arc::default(),
-        doubt: 1.0,
-    };
+    let empty = Trial::new(request.source, &own, &train);
     let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
     told(0.1);
     let worst = baseline.scores.worst_mm();

@@ -4,7 +4,6 @@ use super::scores::Scores;
 use super::trial::Trial;
 use super::{DiagnoseError, Request, read, search};
 use crate::identify::{Effect, Parameter, Robot};
-use std::sync::Arc;
 
 /// Held-out position error \[mm\] of the scenario with given effects (identifier, form, values to begin with), fitted to
 /// the training recordings: what a diagnosis that knows the truth would reach.
@@ -21,14 +20,7 @@ pub fn oracle(
     let effects = <dyn Effect>::all();
     let forms = search::forms(&effects, &robot);
     let mut start: Vec<f64> = own.iter().map(|p| p.nominal).collect();
-    let mut trial = Trial {
-        source: request.source,
-        own: &own,
-        forms: Vec::new(),
-        data: &train,
-        shared: Arc::default(),
-        doubt: 1.0,
-    };
+    let mut trial = Trial::new(request.source, &own, &train);
     for (id, name, values) in known {
         let same = |f: &&search::Form| effects[f.effect].id() == id && f.variant.name == *name;
         let form = forms.iter().find(same).ok_or_else(|| {

@@ -8,6 +8,8 @@ use crate::recordings::{
 use nalgebra::Vector3;
 use std::path::Path;
 
+/// Fewest rows that say anything.
+const FEWEST: usize = 20;
 /// Ticks per second below which a motor rests.
 const STILL: f64 = 30.0;
 /// Rows that are averaged at most.
@@ -111,18 +113,11 @@ impl Samples {
         let geometry = RobotGeometry::default();
         let poses = BasePoses::new(recording, &geometry)?;
         let reference = Reference::new(recording, &poses)?;
-        let motors = MotorAngles::new(recording);
-        let first = motors.first_row;
-        let rows = motors.time.len();
+        let turning = Turning::of(recording)?;
+        let Turning { motors, still } = &turning;
+        let (first, rows) = (motors.first_row, still.len());
         let tracks = [&poses.platform[first..], &poses.ring[first..]];
-        if rows < 20 {
-            return Err(CompareError::Unfit(format!(
-                "recording `{}` has {rows} rows with motor readings; a diagnosis needs at least 20",
-                recording.name
-            )));
-        }
-        let still = still(&motors);
-        let noise = noise(&still, tracks);
+        let noise = noise(still, tracks);
         let mut list = Vec::new();
         let mut series = motors.present.clone();
         let mut row = 0;
@@ -138,21 +133,21 @@ impl Samples {
                     let block = BLOCK.min(length);
                     if length >= 3 * BLOCK {
                         list.push(mean(
-                            &motors,
+                            motors,
                             tracks,
                             from..from + block,
                             Phase::Stopped,
                             noise,
                         ));
                     }
-                    let settled = mean(&motors, tracks, end - block..end, Phase::Settled, noise);
+                    let settled = mean(motors, tracks, end - block..end, Phase::Settled, noise);
                     series[end - block..end].fill(settled.angles);
                     list.push(settled);
                 }
             } else {
                 for r in (row..end).step_by(STRIDE).skip(1) {
                     if r + 1 < rows && r > 0 {
-                        let mut sample = mean(&motors, tracks, r..r + 1, Phase::Moving, noise);
+                        let mut sample = mean(motors, tracks, r..r + 1, Phase::Moving, noise);
                         for (b, track) in tracks.iter().enumerate() {
                             let dt = motors.time[r + 1] - motors.time[r - 1];
                             let (before, after) = (&track[r - 1], &track[r + 1]);
@@ -171,13 +166,13 @@ impl Samples {
             }
             row = end;
         }
-        Self::reduced(recording, &motors, series, list, (reference, noise))
+        Self::reduced(recording, &turning, series, list, (reference, noise))
     }
 
     /// Steady samples of a recording without motion capture. Those during which a motor turns are left out.
     fn published(recording: &Recording, steady: &SteadySamples) -> Result<Self, CompareError> {
-        let motors = MotorAngles::new(recording);
-        let still = still(&motors);
+        let turning = Turning::of(recording)?;
+        let Turning { motors, still } = &turning;
         let around = |row: usize| {
             let row = row - motors.first_row;
             row.saturating_sub(1)..(row + 2).min(still.len())
@@ -194,12 +189,12 @@ impl Samples {
         };
         let list = settled.map(sample).collect();
         let (series, reference) = (motors.present.clone(), steady.reference.clone());
-        Self::reduced(recording, &motors, series, list, (reference, PUBLISHED))
+        Self::reduced(recording, &turning, series, list, (reference, PUBLISHED))
     }
 
     fn reduced(
         recording: &Recording,
-        motors: &MotorAngles,
+        Turning { motors, still }: &Turning,
         series: Vec<[f64; 4]>,
         mut list: Vec<Sample>,
         (reference, noise): (Reference, (f64, f64)),
@@ -218,7 +213,6 @@ impl Samples {
             *count += 1;
             (*count - 1_usize).is_multiple_of(every)
         });
-        let still = still(motors);
         let lively = |row: &usize| {
             let recent = row.saturating_sub(RELAXING)..*row;
             let every = match still[*row] {
@@ -248,17 +242,33 @@ impl Samples {
     }
 }
 
-/// Whether motors rest, row by row.
-fn still(motors: &MotorAngles) -> Vec<bool> {
-    let rate = |row: usize| {
-        let other = if row == 0 { 1 } else { row - 1 };
-        let dt = (motors.time[row] - motors.time[other]).abs().max(1e-6);
-        let turned = |i: usize| (motors.present[row][i] - motors.present[other][i]).abs();
-        (0..4).map(turned).fold(0.0, f64::max) / dt
-    };
-    let limit = STILL * crate::recordings::RADIANS_PER_TICK;
-    let rows = 0..motors.time.len();
-    rows.map(|row| rate(row) < limit).collect()
+/// How the motors turn.
+struct Turning {
+    motors: MotorAngles,
+    /// Whether they rest, row by row.
+    still: Vec<bool>,
+}
+
+impl Turning {
+    fn of(recording: &Recording) -> Result<Self, CompareError> {
+        let motors = MotorAngles::new(recording);
+        let rows = motors.time.len();
+        if rows < FEWEST {
+            return Err(CompareError::Unfit(format!(
+                "recording `{}` has {rows} rows with motor readings; a diagnosis needs at least {FEWEST}",
+                recording.name
+            )));
+        }
+        let rate = |row: usize| {
+            let other = if row == 0 { 1 } else { row - 1 };
+            let dt = (motors.time[row] - motors.time[other]).abs().max(1e-6);
+            let turned = |i: usize| (motors.present[row][i] - motors.present[other][i]).abs();
+            (0..4).map(turned).fold(0.0, f64::max) / dt
+        };
+        let limit = STILL * crate::recordings::RADIANS_PER_TICK;
+        let still = (0..rows).map(|row| rate(row) < limit).collect();
+        Ok(Self { motors, still })
+    }
 }
 
 fn mean(

@@ -10,9 +10,9 @@ use rayon::prelude::*;
 
 /// By how much a marker is off throughout a recording, a standard deviation: position [m], rotation [rad].
 const BIAS: (f64, f64) = (2e-5, 2e-4);
-/// How many times finer the meshes are whose differences are taken for errors of the mesh; what they do needn't be in
-/// proportion.
-const FINER: [f64; 2] = [2.0, 0.75];
+/// Times as many elements of the meshes whose differences are taken for errors of the mesh, the finer one first; what they
+/// do needn't be in proportion.
+const MESHES: [f64; 2] = [2.0, 0.75];
 
 /// Shared errors, each a direction of whitened residuals along which the error is one standard deviation.
 #[derive(Default)]
@@ -87,14 +87,14 @@ pub fn meshes(source: &Source, data: &[Samples]) -> Result<Vec<DVector<f64>>, Co
         Ok(DVector::from_vec(each.concat()))
     };
     let own = all(source)?;
-    let other = FINER.par_iter().map(|finer| {
+    let other = MESHES.par_iter().map(|times| {
         let mut sets = Vec::new();
         for group in 0.. {
             let path = format!("rods[{group}].elements");
             let Ok(elements) = source.number(&path) else {
                 break;
             };
-            sets.push(format!("{path}={:.0}", (finer * elements).max(1.0)));
+            sets.push(format!("{path}={:.0}", (times * elements).max(1.0)));
         }
         Ok(all(&source.with(&sets)?)? - &own)
     });

@@ -5,7 +5,7 @@ use super::scores::Scores;
 use super::search::{self, Candidate, Form};
 use super::shared::{self, Shared};
 use super::trial::{Linear, Trial};
-use super::{DiagnoseError, LEFT, SOUND, unfit};
+use super::{DiagnoseError, LEFT, ODDS, SOUND, unfit};
 use crate::config::Source;
 use crate::identify::Variant;
 use rand::{RngExt, SeedableRng};
@@ -18,8 +18,6 @@ const GAIN: [f64; 2] = [0.25, 0.5];
 const TRIED: usize = 3;
 /// Shares of chi2 within which two effects can't be told apart, beside [`ODDS`].
 const ALIKE: f64 = 0.1;
-/// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
-const ODDS: f64 = 6.0;
 /// Steps of the calibration, and of fits that begin near their end.
 const STEPS: (usize, usize) = (12, 4);
 

@@ -115,6 +115,18 @@ pub fn version(
 }
 
 impl<'a> Trial<'a> {
+    /// The scenario alone: no effects, no errors that samples share, no doubt.
+    pub fn new(source: &'a Source, own: &'a [Parameter], data: &'a [Samples]) -> Self {
+        Self {
+            source,
+            own,
+            forms: Vec::new(),
+            data,
+            shared: Arc::default(),
+            doubt: 1.0,
+        }
+    }
+
     /// Numbers that are measured.
     pub fn measured(&self) -> f64 {
         let samples = self.data.iter().map(|s| s.list.len());

@@ -8,13 +8,12 @@ use super::verdict::{CurvesDiagnosis, FittedRods, NamedOfRods, OfRod, ScoredQuan
 use super::{DiagnoseError, each};
 use crate::characterise::{Comparison, Quantity};
 use crate::config::Source;
+use crate::diagnose::LEFT;
 use crate::diagnose::verdict::{Alternative, Estimated, Experiment, Kind};
 use crate::identify::{Effect, Estimate, Fit, Parameter};
 
 /// Deviations by which calibrations with and without a quantity must differ to be told.
 const FAR: f64 = 3.0;
-/// Mean squared residual beyond which what is left is told.
-const LEFT: f64 = 4.0;
 
 /// What is known when the search has ended.
 pub(super) struct Seen<'a> {

@@ -3,6 +3,7 @@
 use super::hypothesis::{Group, Hypothesis};
 use super::rod::Rod;
 use crate::config::Problems;
+use crate::diagnose::ODDS;
 use crate::identify::{Effect, Fit, Robot, Variant};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -19,8 +20,6 @@ const GAIN: f64 = 0.25;
 const WORSE: f64 = 0.05;
 /// Most effects that are judged by what was left out.
 const JUDGED: usize = 6;
-/// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.
-const ODDS: f64 = 6.0;
 
 /// All forms whose numbers can be the same on all rods.
 pub(super) fn forms(effects: &[Box<dyn Effect>], rods: &[Rod]) -> Result<Vec<Form>, Problems> {

@@ -20,7 +20,7 @@ pub struct CurvesDiagnosis {
     pub experiment: Option<Experiment>,
     /// Where the calibrated scenarios contradict the figures.
     pub location: CurvesLocation,
-    /// Least error bar of a figure, as a share of what its quantity spans.
+    /// Least error bar of a figure, as a share of the largest value of its quantity (of lengths, of the extension).
     pub floor: f64,
     /// The calibrated scenarios without effects.
     pub baseline: FittedRods,
