@@ -65,3 +65,21 @@ fn springs_that_are_left_out_are_rigid() {
     let law = pushed(force, "Half", "(apply: BaseCompliance())");
     assert_relative_eq!(law, rigid, epsilon = 1e-12);
 }
+
+#[test]
+fn springs_in_series_come_after_all_other_laws_wherever_they_are_listed() {
+    let force = vector![0.3, 0.1, -1.0];
+    for series in [
+        "(apply: BaseCompliance(rotational_stiffness: 0.4, stiffness: 300))",
+        "(apply: MotorCompliance(stiffness: 0.1))",
+    ] {
+        let other = "(apply: Stiffness(axial: 0.5, shear: 0.7, bending: (0.8, 0.9), twist: 0.6))";
+        let after = pushed(force, "Half", &format!("{other}, {series}"));
+        let before = pushed(force, "Half", &format!("{series}, {other}"));
+        assert_relative_eq!(after, before, epsilon = 1e-12);
+        assert!(
+            (after - pushed(force, "Half", other)).norm() > 1e-6,
+            "{series}"
+        );
+    }
+}

@@ -30,6 +30,10 @@ register!(
 impl RodLaw for BaseCompliance {
     fn rest(&self, _now: &Moment<'_>, _rod: &mut LawView<'_>) {}
 
+    fn in_series(&self) -> bool {
+        true
+    }
+
     fn stress(&self, _now: &Moment<'_>, rod: &mut LawView<'_>) {
         let Some(v) = rod.cells().next() else {
             return;

@@ -20,6 +20,10 @@ register!(
 );
 
 impl RodLaw for MotorCompliance {
+    fn in_series(&self) -> bool {
+        true
+    }
+
     fn rest(&self, _now: &Moment<'_>, rod: &mut LawView<'_>) {
         // turn = k_z (cell + B_z / stiffness): the same couple twists the cell and turns the spring
         if let Some(v) = rod.cells().next() {

@@ -8,7 +8,7 @@ use super::standing::Standing;
 use super::verdict::{
     Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
 };
-use super::{LEFT, SOUND};
+use super::{LEFT, MOST, SOUND};
 use crate::identify::{Effect, Hooked, Parameter, Quantity};
 
 /// Share of the mismatch beyond noise that the named effects must explain.
@@ -86,6 +86,8 @@ fn kind(
         // what is left is noise, however little there was to explain
         _ if explained < EXPLAINED && last.mean_square() >= SOUND => Kind::Unexplained,
         _ if worsens || last.mean_square() > LEFT => Kind::Unexplained,
+        // so many, and still not all of it: they imitate something else
+        ref named if named.len() == MOST && last.mean_square() >= SOUND => Kind::Unexplained,
         [_] if !last.alternatives.is_empty() => Kind::Class,
         [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
         [_] => Kind::Effect,

@@ -4,10 +4,11 @@ use super::samples::Samples;
 use super::scores::Scores;
 use super::search::{self, Candidate, Form};
 use super::shared::{self, Shared};
-use super::trial::{Linear, Trial};
-use super::{DiagnoseError, LEFT, ODDS, SOUND, unfit};
+use super::trial::{DAMPING, Linear, Trial};
+use super::{DiagnoseError, LEFT, ODDS, unfit};
 use crate::config::Source;
 use crate::identify::Variant;
+use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::sync::Arc;
@@ -18,6 +19,8 @@ const GAIN: [f64; 2] = [0.25, 0.5];
 const TRIED: usize = 3;
 /// Shares of chi2 within which two effects can't be told apart, beside [`ODDS`].
 const ALIKE: f64 = 0.1;
+/// Times the least chi2 beyond which a candidate isn't among the best.
+const PLAINLY_WORSE: f64 = 2.0;
 /// Steps of the calibration, and of fits that begin near their end.
 const STEPS: (usize, usize) = (12, 4);
 
@@ -31,7 +34,7 @@ pub(super) struct Standing<'a> {
     /// The fit that takes errors of mesh and recordings that samples share for noise: it says what they don't explain. The
     /// other one predicts better with the mesh that there is.
     pub(super) tolerant: Linear,
-    /// Change of each fitted value with a finer mesh, to first order; zero where that was not needed or can't be told.
+    /// Change of each fitted value with a finer mesh, to first order; zero where that can't be told.
     pub(super) with_mesh: Vec<f64>,
     /// How well it does.
     pub(super) scores: Scores,
@@ -109,9 +112,10 @@ impl<'a> Standing<'a> {
         told: &(dyn Fn(f64) + Sync),
     ) -> Result<Option<Self>, DiagnoseError> {
         let used: Vec<usize> = self.named.iter().map(|(f, _)| forms[*f].effect).collect();
-        let mut found = search::round(&self.trial, &self.fit, forms, &used, told);
+        let found = search::round(&self.trial, &self.fit, forms, &used, told);
         let much = self.named.is_empty() || self.mean_square() > LEFT;
         let gain = if much { GAIN[0] } else { GAIN[1] };
+        let mut found = self.tolerated(found, forms)?;
         for _ in 0..TRIED {
             let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
                 break;
@@ -123,9 +127,29 @@ impl<'a> Standing<'a> {
                 return Ok(Some(next));
             }
             let refused = forms[best.form].effect;
-            found.retain(|c| forms[c.form].effect != refused);
+            found.retain(|(_, c)| forms[c.form].effect != refused);
         }
         Ok(None)
+    }
+
+    /// Candidates with the chi2 that is left where errors shared by samples are noise, to first order. They are those at
+    /// the best candidate: what the mesh does depends little on which.
+    fn tolerated(
+        &self,
+        found: Vec<Candidate>,
+        forms: &'a [Form],
+    ) -> Result<Vec<(f64, Candidate)>, DiagnoseError> {
+        let Some(best) = found.first() else {
+            return Ok(vec![]);
+        };
+        let with = |c: &Candidate| self.trial.with(&forms[c.form].variant);
+        let (shared, _) = shared_errors(&with(best), &best.fit)?;
+        let measured = self.trial.measured() as usize;
+        let left = |candidate: Candidate| {
+            let white = candidate.fit.whitened(&shared, measured);
+            (with(&candidate).step(&white, DAMPING).1, candidate)
+        };
+        Ok(found.into_iter().map(left).collect())
     }
 
     /// The same with a form that was fitted, unless recordings held out refuse it.
@@ -165,26 +189,30 @@ impl<'a> Standing<'a> {
     /// The best of fitted forms, its probability, and the effects that do as well.
     fn ranked<'c>(
         &self,
-        found: &'c [Candidate],
+        found: &'c [(f64, Candidate)],
         forms: &[Form],
     ) -> Option<(&'c Candidate, f64, Vec<usize>)> {
         let measured = self.trial.measured();
-        let scale = (found.first()?.fit.chi2() / measured).max(1.0);
-        let cost = |c: &Candidate| {
-            c.fit.chi2() / scale + forms[c.form].variant.quantities.len() as f64 * measured.ln()
+        // errors that are shared don't make up for a fit that is plainly worse
+        let (_, first) = found.first()?;
+        let close = |c: &&(f64, Candidate)| c.1.fit.chi2() <= PLAINLY_WORSE * first.fit.chi2();
+        let found: Vec<&(f64, Candidate)> = found.iter().filter(close).collect();
+        let least = found.iter().map(|c| c.0).min_by(f64::total_cmp)?;
+        let scale = (least / measured).max(1.0);
+        let cost = |(left, c): &(f64, Candidate)| {
+            left / scale + forms[c.form].variant.quantities.len() as f64 * measured.ln()
         };
-        let mut ranked: Vec<_> = found.iter().map(|c| (cost(c), c)).collect();
+        let mut ranked: Vec<_> = (found.into_iter()).map(|c| (cost(c), c.0, &c.1)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let (best_cost, best) = ranked[0];
+        let (best_cost, best_left, best) = ranked[0];
         let mut weights: Vec<(usize, f64)> = Vec::new();
         let mut alike = Vec::new();
-        for (cost, candidate) in &ranked {
+        for (cost, left, candidate) in &ranked {
             let effect = forms[candidate.form].effect;
             if weights.iter().any(|(e, _)| *e == effect) {
                 continue;
             }
-            let same =
-                cost - best_cost < ODDS || candidate.fit.chi2() < (1.0 + ALIKE) * best.fit.chi2();
+            let same = cost - best_cost < ODDS || *left < (1.0 + ALIKE) * best_left;
             // those that can't be told apart are as likely
             let weight = if same {
                 alike.push(effect);
@@ -234,27 +262,33 @@ fn drop_needless(trial: &mut Trial<'_>, fit: &mut Linear, named: &mut Vec<(usize
     }
 }
 
-/// A fit continued with the errors that samples share, if there is anything to explain, and what a finer mesh would do to
-/// its values.
+/// A fit continued with the errors that samples share, and what a finer mesh would do to its values.
 fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<(Linear, Vec<f64>), DiagnoseError> {
-    let still = vec![0.0; fit.at.len()];
-    if trial.forms.is_empty() && fit.chi2() < SOUND * trial.measured() {
-        return Ok((fit.clone(), still));
-    }
-    let source = trial.scenario(&fit.at).map_err(unfit)?;
-    let biases = Shared::biases(trial.data);
-    // where another mesh has no steady states, its difference isn't known
-    let (shared, with_mesh) = match shared::meshes(&source, trial.data) {
-        Ok(meshes) => {
-            let with_mesh = trial.response(fit, &meshes[0]);
-            (biases.with(meshes), with_mesh)
-        }
-        Err(_) => (biases, still),
-    };
+    let (shared, finer) = shared_errors(trial, fit)?;
+    let still = || vec![0.0; fit.at.len()];
+    let with_mesh = finer.map_or_else(still, |finer| trial.response(fit, &finer));
+    let start = fit.whitened(&shared, trial.measured() as usize);
     let trial = Trial {
         shared: Arc::new(shared),
         ..trial.clone()
     };
-    let start = trial.start(&fit.at, Some(fit)).map_err(unfit)?;
-    Ok((trial.fit(start, 0..fit.at.len(), STEPS.1), with_mesh))
+    let all = 0..fit.at.len();
+    Ok((trial.fit(start, all, STEPS.1), with_mesh))
+}
+
+/// Errors that samples share at a fit, and what a finer mesh does there; where another mesh has no steady states, its
+/// difference isn't known.
+fn shared_errors(
+    trial: &Trial<'_>,
+    fit: &Linear,
+) -> Result<(Shared, Option<DVector<f64>>), DiagnoseError> {
+    let source = trial.scenario(&fit.at).map_err(unfit)?;
+    let biases = Shared::biases(trial.data);
+    Ok(match shared::meshes(&source, trial.data) {
+        Ok(meshes) => {
+            let finer = meshes[0].clone();
+            (biases.with(meshes), Some(finer))
+        }
+        Err(_) => (biases, None),
+    })
 }

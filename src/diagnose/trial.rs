@@ -58,6 +58,23 @@ impl Linear {
             states: self.states.clone(),
         }
     }
+
+    /// The same with errors that samples share taken out of the first `measured` rows.
+    pub fn whitened(&self, shared: &Shared, measured: usize) -> Self {
+        let mut all = self.jacobian.rows(0, measured).into_owned();
+        all = all.insert_column(0, 0.0);
+        all.column_mut(0)
+            .copy_from(&self.residuals.rows(0, measured));
+        shared.whiten(&mut all);
+        let mut white = self.clone();
+        white
+            .residuals
+            .rows_mut(0, measured)
+            .copy_from(&all.column(0));
+        let columns = all.columns(1, self.at.len());
+        white.jacobian.rows_mut(0, measured).copy_from(&columns);
+        white
+    }
 }
 
 /// A value as the search counts it: its inverse if the effect is absent where the value is large, since the robot

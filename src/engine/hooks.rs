@@ -22,6 +22,12 @@ pub trait RodLaw: Send + Sync {
     /// Adds to the stresses and couples that the engine has computed from strains and rigidities.
     fn stress(&self, _now: &Moment<'_>, _rod: &mut LawView<'_>) {}
 
+    /// Whether the law shares out among springs in series what all others make of the rod, and so comes after them,
+    /// wherever it is listed.
+    fn in_series(&self) -> bool {
+        false
+    }
+
     /// How many numbers the law remembers of a rod (viscous strains, largest strains so far); all are 0 at first.
     fn memory(&self, _rod: &Body<'_>) -> usize {
         0

@@ -84,12 +84,18 @@ impl System {
         let memory = &mut group.bodies.state.memory;
         let first = memory.len();
         memory.resize(first + count, 0.0);
-        group.laws.push(HookedLaw {
+        let place = if hook.in_series() {
+            group.laws.len()
+        } else {
+            group.laws.partition_point(|l| !l.hook.in_series())
+        };
+        let hooked = HookedLaw {
             name: name.into(),
             body: id.index,
             hook,
             memory: (first, count),
-        });
+        };
+        group.laws.insert(place, hooked);
         Ok(())
     }
 
