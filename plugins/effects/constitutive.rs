@@ -162,7 +162,7 @@ effect!(
 effect!(
     /// Rods are not alike.
     RodAsymmetry, "rod_asymmetry", Constitutive,
-    "one rod is not like the others",
+    "the rods are not alike",
     "eps_i = g_i eps, S_i = g_i S, B_i = g_i B",
     "swap two rods; measure each rod alone",
     "manufacturing spread",
@@ -189,6 +189,21 @@ effect!(
                 format!("(on: {rod:?}, apply: Stiffness(axial: {{0}}, shear: {{0}}, bending: ({{0}}, {{0}}), twist: {{0}}))"),
             )
         }));
+        // all others over the first, since the scenario's own rigidities scale all alike
+        let over_first = |v: Variant, what: &str, field: &str| {
+            let from = v.quantities.len();
+            robot.rods.iter().skip(1).enumerate().fold(v, |v, (i, rod)| {
+                v.number(&format!("{what} gain of {rod}"), "-", (1.0, 1.1), (0.3, 3.0)).append(
+                    "laws",
+                    format!("(on: {rod:?}, apply: Stiffness({field}: {{{}}}))", from + i),
+                )
+            })
+        };
+        if robot.rods.len() > 1 {
+            let twist = |name| over_first(Variant::new(name), "twist", "twist");
+            forms.push(twist("twist stiffness of each rod"));
+            forms.push(over_first(twist("stretch and twist stiffness of each rod"), "axial", "axial"));
+        }
         forms
     }
 );

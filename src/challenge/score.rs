@@ -5,8 +5,10 @@ use super::{ChallengeError, NOMINAL, RECORDINGS, SEAL, TRUTH, hash};
 use crate::config::Source;
 use crate::diagnose::verdict::{Diagnosis, Kind};
 use crate::diagnose::{Request, diagnose, oracle};
+use rayon::prelude::*;
 use statrs::statistics::{Data, Median};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// File of a case's diagnosis, kept so that an interrupted score goes on.
 const DIAGNOSIS: &str = "diagnosis.json";
@@ -81,32 +83,32 @@ pub fn score(
     let recordings = |case: &Path, from: std::ops::Range<usize>| -> Vec<PathBuf> {
         RECORDINGS[from].iter().map(|r| case.join(r)).collect()
     };
-    for (i, case) in cases.iter().enumerate() {
-        told(i as f64 / cases.len() as f64);
+    let done = AtomicUsize::new(0);
+    cases.par_iter().try_for_each(|case| {
         let file = case.join(DIAGNOSIS);
-        if file.exists() {
-            continue;
+        if !file.exists() {
+            let request = Request {
+                source: &nominal,
+                train: &recordings(case, 0..2),
+                holdout: &recordings(case, 2..4),
+                effects: &[],
+                seed,
+            };
+            let (diagnosis, _) =
+                diagnose(&request, &|_| ()).map_err(|source| ChallengeError::Diagnosis {
+                    case: case.display().to_string(),
+                    source,
+                })?;
+            let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
+            let part = case.join("diagnosis.part");
+            std::fs::write(&part, text)
+                .and_then(|()| std::fs::rename(&part, &file))
+                .map_err(|e| ChallengeError::file(&file, e))?;
         }
-        let request = Request {
-            source: &nominal,
-            train: &recordings(case, 0..2),
-            holdout: &recordings(case, 2..4),
-            effects: &[],
-            seed,
-        };
-        let (diagnosis, _) = diagnose(&request, &|share| {
-            told((i as f64 + share) / cases.len() as f64);
-        })
-        .map_err(|source| ChallengeError::Diagnosis {
-            case: case.display().to_string(),
-            source,
-        })?;
-        let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
-        let part = case.join("diagnosis.part");
-        std::fs::write(&part, text)
-            .and_then(|()| std::fs::rename(&part, &file))
-            .map_err(|e| ChallengeError::file(&file, e))?;
-    }
+        let done = done.fetch_add(1, Ordering::Relaxed) + 1;
+        told(done as f64 / cases.len() as f64);
+        Ok::<_, ChallengeError>(())
+    })?;
     // all is said; now the truth
     let sealed = read(&folder.join(TRUTH))?;
     if hash(&sealed) != read(&folder.join(SEAL))?.trim() {
@@ -119,8 +121,7 @@ pub fn score(
     };
     let truths: Vec<Truth> =
         serde_json::from_str(&sealed).map_err(|e| unreadable(&folder.join(TRUTH), e))?;
-    let mut results = Vec::new();
-    for truth in truths {
+    let judged = truths.into_par_iter().map(|truth| {
         let case = folder.join(&truth.case);
         let file = case.join(DIAGNOSIS);
         let said: Diagnosis =
@@ -144,8 +145,9 @@ pub fn score(
         } else {
             oracle(&request, &known).ok()
         };
-        results.push(judge(truth, &said, best));
-    }
+        Ok(judge(truth, &said, best))
+    });
+    let results = judged.collect::<std::result::Result<Vec<_>, ChallengeError>>()?;
     let tally = Tally::of(&results);
     told(1.0);
     Ok((results, tally))

@@ -2,7 +2,7 @@
 
 use super::forward::NUMERICS;
 use super::locate;
-use super::samples::{Phase, Sample, Samples};
+use super::samples::{KINDS, Phase, Sample, Samples};
 use super::search::{self, Form};
 use super::standing::Standing;
 use super::verdict::{
@@ -244,9 +244,15 @@ fn floor(data: &[Samples]) -> Floor {
 
 fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
     let line = |s: &Samples| {
+        let flipped = match s.flipped {
+            0 => String::new(),
+            n => format!(
+                "; {n} left out, at which motion capture has a body turned by more than a radian against the scenario"
+            ),
+        };
         let count = |phase: Phase| s.list.iter().filter(|sample| sample.phase == phase).count();
         format!(
-            "{}: {} set-points, {} samples on the way, noise {:.3} mm and {:.2} mrad a component",
+            "{}: {} set-points, {} samples on the way, noise {:.3} mm and {:.2} mrad a component{flipped}",
             s.name,
             count(Phase::Settled),
             count(Phase::Moving),
@@ -254,7 +260,18 @@ fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
             1e3 * s.noise.1
         )
     };
-    train.iter().chain(holdout).map(line).collect()
+    let mut lines: Vec<String> = train.iter().chain(holdout).map(line).collect();
+    let wider = train[0].wider;
+    if wider != [1.0; KINDS.len()] {
+        let each = KINDS.iter().zip(wider);
+        let each: Vec<_> = each.map(|(kind, w)| format!("the {kind} {w:.1}")).collect();
+        lines.push(format!(
+            "the calibrated scenario is so far off that residuals count by how far off their kind is; over noise they are \
+             taken to spread wider by {}",
+            each.join(", ")
+        ));
+    }
+    lines
 }
 
 fn sentence(

@@ -1,6 +1,6 @@
 //! From a scenario to the residuals of recordings.
 
-use super::samples::{Phase, Sample, Samples};
+use super::samples::{Phase, Samples};
 use crate::compare::{CompareError, markers, pose};
 use crate::config::Source;
 use crate::engine::scenario::{Datum, Marker};
@@ -217,7 +217,7 @@ impl<'a> Run<'a> {
                 Ok(())
             })?;
             let shown = &self.shown;
-            let white = sample.whiten(difference(&shown.model, &shown.points, samples, i));
+            let white = samples.whiten(i, difference(&shown.model, &shown.points, samples, i));
             left -= white.iter().map(|r| r * r).sum::<f64>();
             if left < 0.0 {
                 return Err(CompareError::Unfit(format!(
@@ -229,8 +229,8 @@ impl<'a> Run<'a> {
             let call = std::cell::Cell::new(0);
             let outputs = |model: &Model| {
                 let points = &points[call.replace(call.get() + 1)];
-                sample
-                    .whiten(difference(model, points, samples, i))
+                samples
+                    .whiten(i, difference(model, points, samples, i))
                     .to_vec()
             };
             let slopes = sensitivities
@@ -279,21 +279,23 @@ pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, Compa
 
 /// Residuals of a recording in standard deviations.
 pub fn whitened(differences: &[f64], samples: &Samples) -> Vec<f64> {
-    let each = samples.list.iter().zip(differences.as_chunks().0);
-    each.flat_map(|(sample, values)| sample.whiten(*values))
+    let each = differences.as_chunks().0.iter().enumerate();
+    each.flat_map(|(i, values)| samples.whiten(i, *values))
         .collect()
 }
 
-impl Sample {
-    /// Residuals in standard deviations.
-    fn whiten(&self, mut values: [f64; CHANNELS]) -> [f64; CHANNELS] {
+impl Samples {
+    /// Residuals of sample `i` in standard deviations.
+    fn whiten(&self, i: usize, mut values: [f64; CHANNELS]) -> [f64; CHANNELS] {
+        let sample = &self.list[i];
         for (c, value) in values.iter_mut().enumerate() {
-            let b = c / 6;
-            *value /= if c % 6 < 3 {
-                self.position_deviation[b].hypot(NUMERICS.0)
+            let (body, kind) = (c / 6, c / 3);
+            let deviation = if kind % 2 == 0 {
+                sample.position_deviation[body].hypot(NUMERICS.0)
             } else {
-                self.rotation_deviation[b].hypot(NUMERICS.1)
+                sample.rotation_deviation[body].hypot(NUMERICS.1)
             };
+            *value /= self.wider[kind] * deviation;
         }
         values
     }

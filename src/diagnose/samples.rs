@@ -1,5 +1,6 @@
 //! What a recording is reduced to: the settled end and the beginning of every dwell, and rows on the way.
 
+use super::forward::CHANNELS;
 use crate::compare::{CompareError, motor_inputs, published};
 use crate::engine::Inputs;
 use crate::recordings::{
@@ -30,6 +31,16 @@ const INERTIA: f64 = 0.01;
 const MOST: usize = 200;
 /// Deviation of poses from a published table, which doesn't tell it: position [m], rotation [rad].
 const PUBLISHED: (f64, f64) = (1e-4, 1e-3);
+
+/// Kinds of channels: positions and rotations of the platform, then of the ring, three channels each.
+pub const KINDS: [&str; 4] = [
+    "platform's position",
+    "platform's turn",
+    "ring's position",
+    "ring's turn",
+];
+/// Turn of a body against the model that is a mistake of motion capture [rad], and the share of samples that may have it.
+const FLIPPED: (f64, f64) = (1.0, 0.05);
 
 /// When a sample was taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,6 +89,10 @@ pub struct Samples {
     pub noise: (f64, f64),
     /// Range of each motor's angle [rad].
     pub travel: [f64; 4],
+    /// How many times wider than noise residuals of each kind are taken to spread.
+    pub wider: [f64; KINDS.len()],
+    /// Samples that were left out, since motion capture had mistaken markers.
+    pub flipped: usize,
 }
 
 impl Samples {
@@ -90,6 +105,22 @@ impl Samples {
         match recording.mocap {
             Some(_) => Self::of(&recording),
             None => Self::published(&recording, &published(&recording, folder)?),
+        }
+    }
+
+    /// Leaves out samples at which a body seems to be turned by more than a radian against a scenario, unless they are many;
+    /// `apart` is simulated less recorded.
+    pub fn leave_out_flips(&mut self, apart: &[f64]) {
+        let turned = |of: &[f64]| Vector3::from_column_slice(of).norm() > FLIPPED.0;
+        let (samples, _) = apart.as_chunks::<CHANNELS>();
+        let flipped: Vec<bool> = (samples.iter())
+            .map(|of| turned(&of[3..6]) || turned(&of[9..12]))
+            .collect();
+        let count = flipped.iter().filter(|f| **f).count();
+        if count as f64 <= FLIPPED.1 * flipped.len() as f64 {
+            let mut flipped = flipped.into_iter();
+            self.list.retain(|_| flipped.next() != Some(true));
+            self.flipped = count;
         }
     }
 
@@ -238,6 +269,8 @@ impl Samples {
             rest: motors.time[0],
             noise,
             travel,
+            wider: [1.0; KINDS.len()],
+            flipped: 0,
         })
     }
 }

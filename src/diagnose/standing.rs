@@ -1,6 +1,7 @@
 //! What a diagnosis has come to: the scenario with the effects that are named so far, fitted.
 
-use super::samples::Samples;
+use super::forward::CHANNELS;
+use super::samples::{KINDS, Samples};
 use super::scores::Scores;
 use super::search::{self, Candidate, Form};
 use super::shared::{self, Shared};
@@ -11,6 +12,7 @@ use crate::identify::Variant;
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use statrs::statistics::{Data, Median};
 use std::sync::Arc;
 
 /// Share of chi2 that an effect must explain to be named, and a further one where little is left to explain.
@@ -94,6 +96,24 @@ impl<'a> Standing<'a> {
     /// Squared residuals that shared errors don't explain, the mean over all measured numbers.
     pub(super) fn mean_square(&self) -> f64 {
         self.tolerant.chi2() / self.trial.measured()
+    }
+
+    /// How many deviations each kind of channel is off: root mean squares of recordings, and of these the median.
+    pub(super) fn off(&self) -> [f64; KINDS.len()] {
+        let mut each: [Vec<f64>; KINDS.len()] = Default::default();
+        let mut rest = self.fit.residuals.as_slice();
+        for samples in self.trial.data {
+            let (own, others) = rest.split_at(samples.list.len() * CHANNELS);
+            rest = others;
+            let mut squares = [0.0; KINDS.len()];
+            for (i, r) in own.iter().enumerate() {
+                squares[i % CHANNELS / 3] += r * r;
+            }
+            for (each, sum) in each.iter_mut().zip(squares) {
+                each.push((sum * KINDS.len() as f64 / own.len() as f64).sqrt());
+            }
+        }
+        each.map(|of_recordings| Data::new(of_recordings).median())
     }
 
     /// Sum of the squared residuals beyond what noise and shared errors make.
