@@ -5,7 +5,7 @@
 mod common;
 
 use auxetica::config::Source;
-use auxetica::diagnose::forward::{differences, platform_rms};
+use auxetica::diagnose::forward::{CHANNELS, differences, platform_rms};
 use auxetica::diagnose::samples::{Phase, Samples};
 use auxetica::diagnose::verdict::{Diagnosis, Kind};
 use auxetica::diagnose::{Request, diagnose};
@@ -139,6 +139,30 @@ fn real_recordings_are_reduced_to_samples_with_or_without_motion_capture() {
     // `compare` finds 3.08 mm over all 500
     let rms = platform_rms(&apart, &random).0;
     assert!((rms - 3.08).abs() < 0.1, "{rms} mm");
+}
+
+#[test]
+fn samples_with_mistaken_markers_are_left_out_unless_they_are_many() {
+    let Some(folder) = common::data("concealed/open_a/train_0_circle") else {
+        return;
+    };
+    let read = || Samples::read(&folder).unwrap_or_else(|e| panic!("{e}"));
+    let all = read().list;
+    // nothing apart, but for the ring's turn about z at one sample or at every other
+    let apart = |flipped: &dyn Fn(usize) -> bool| -> Vec<f64> {
+        let of = |i| (0..CHANNELS).map(move |c| if c == 11 && i { 2.8 } else { 0.0 });
+        (0..all.len()).flat_map(|i| of(flipped(i))).collect()
+    };
+    let mut one = read();
+    one.leave_out_flips(&apart(&|i| i == 7));
+    assert_eq!((one.flipped, one.list.len()), (1, all.len() - 1));
+    assert_eq!(
+        (one.list[6].time, one.list[7].time),
+        (all[6].time, all[8].time)
+    );
+    let mut many = read();
+    many.leave_out_flips(&apart(&|i| i % 2 == 0));
+    assert_eq!((many.flipped, many.list.len()), (0, all.len()));
 }
 
 #[test]

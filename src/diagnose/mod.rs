@@ -94,6 +94,14 @@ pub fn diagnose(
     let baseline = loop {
         let empty = Trial::new(request.source, &own, &train);
         let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
+        let worst = baseline.scores.worst_mm();
+        if worst > OTHER_ROBOT {
+            return Err(DiagnoseError::Unfit(format!(
+                "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, its motors are in another \
+                 order, or it has other units (positions are in m, motors in ticks of which 4096 are a turn); give the scenario \
+                 of the robot that was recorded"
+            )));
+        }
         if weighed == FAR_OFF.1 || weighed == 0 && baseline.mean_square() < FAR_OFF.0 {
             break baseline;
         }
@@ -107,14 +115,6 @@ pub fn diagnose(
         }
     };
     told(0.1);
-    let worst = baseline.scores.worst_mm();
-    if worst > OTHER_ROBOT {
-        return Err(DiagnoseError::Unfit(format!(
-            "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, its motors are in another \
-             order, or it has other units (positions are in m, motors in ticks of which 4096 are a turn); give the scenario \
-             of the robot that was recorded"
-        )));
-    }
     let mut last = baseline.clone();
     for round in 0..ROUNDS {
         if last.mean_square() < SOUND || last.named.len() == MOST {
