@@ -193,7 +193,7 @@ effect!(
         let over_first = |v: Variant, what: &str, field: &str| {
             let from = v.quantities.len();
             robot.rods.iter().skip(1).enumerate().fold(v, |v, (i, rod)| {
-                v.number(&format!("{what} gain of {rod}"), "-", (1.0, 1.1), (0.3, 3.0)).append(
+                v.number(format!("{what} gain of {rod}"), "-", (1.0, 1.1), (0.3, 3.0)).append(
                     "laws",
                     format!("(on: {rod:?}, apply: Stiffness({field}: {{{}}}))", from + i),
                 )
