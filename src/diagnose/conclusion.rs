@@ -262,7 +262,7 @@ fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
     };
     let mut lines: Vec<String> = train.iter().chain(holdout).map(line).collect();
     let wider = train[0].wider;
-    if wider != [1.0; KINDS.len()] {
+    if wider.iter().any(|w| *w > 1.0) {
         let each = KINDS.iter().zip(wider);
         let each: Vec<_> = each.map(|(kind, w)| format!("the {kind} {w:.1}")).collect();
         lines.push(format!(
