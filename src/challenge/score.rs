@@ -80,31 +80,9 @@ pub fn score(
         .filter(|p| p.join(RECORDINGS[0]).is_dir())
         .collect();
     cases.sort();
-    let recordings = |case: &Path, from: std::ops::Range<usize>| -> Vec<PathBuf> {
-        RECORDINGS[from].iter().map(|r| case.join(r)).collect()
-    };
     let done = AtomicUsize::new(0);
     cases.par_iter().try_for_each(|case| {
-        let file = case.join(DIAGNOSIS);
-        if !file.exists() {
-            let request = Request {
-                source: &nominal,
-                train: &recordings(case, 0..2),
-                holdout: &recordings(case, 2..4),
-                effects: &[],
-                seed,
-            };
-            let (diagnosis, _) =
-                diagnose(&request, &|_| ()).map_err(|source| ChallengeError::Diagnosis {
-                    case: case.display().to_string(),
-                    source,
-                })?;
-            let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
-            let part = case.join("diagnosis.part");
-            std::fs::write(&part, text)
-                .and_then(|()| std::fs::rename(&part, &file))
-                .map_err(|e| ChallengeError::file(&file, e))?;
-        }
+        keep_diagnosis(case, &nominal, seed)?;
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         told(done as f64 / cases.len() as f64);
         Ok::<_, ChallengeError>(())
@@ -126,13 +104,6 @@ pub fn score(
         let file = case.join(DIAGNOSIS);
         let said: Diagnosis =
             serde_json::from_str(&read(&file)?).map_err(|e| unreadable(&file, e))?;
-        let request = Request {
-            source: &nominal,
-            train: &recordings(&case, 0..2),
-            holdout: &recordings(&case, 2..4),
-            effects: &[],
-            seed,
-        };
         let known: Vec<(String, String, Vec<f64>)> = (truth.effects.iter())
             .filter(|e| e.id != Concealed::FOREIGN)
             .map(|e| {
@@ -143,7 +114,8 @@ pub fn score(
         let best = if known.is_empty() {
             None
         } else {
-            oracle(&request, &known).ok()
+            let [train, holdout] = recordings(&case);
+            oracle(&request(&nominal, &train, &holdout, seed), &known).ok()
         };
         Ok(judge(truth, &said, best))
     });
@@ -151,6 +123,50 @@ pub fn score(
     let tally = Tally::of(&results);
     told(1.0);
     Ok((results, tally))
+}
+
+/// Folders of a case's recordings: to train on, and to judge by.
+fn recordings(case: &Path) -> [Vec<PathBuf>; 2] {
+    let (train, holdout) = RECORDINGS.split_at(2);
+    [train, holdout].map(|names| names.iter().map(|name| case.join(name)).collect())
+}
+
+fn request<'a>(
+    source: &'a Source,
+    train: &'a [PathBuf],
+    holdout: &'a [PathBuf],
+    seed: u64,
+) -> Request<'a> {
+    Request {
+        source,
+        train,
+        holdout,
+        effects: &[],
+        seed,
+    }
+}
+
+/// Diagnoses a case, unless its diagnosis is there.
+fn keep_diagnosis(
+    case: &Path,
+    nominal: &Source,
+    seed: u64,
+) -> std::result::Result<(), ChallengeError> {
+    let file = case.join(DIAGNOSIS);
+    if file.exists() {
+        return Ok(());
+    }
+    let [train, holdout] = recordings(case);
+    let diagnosis = diagnose(&request(nominal, &train, &holdout, seed), &|_| ());
+    let (diagnosis, _) = diagnosis.map_err(|source| ChallengeError::Diagnosis {
+        case: case.display().to_string(),
+        source,
+    })?;
+    let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
+    let part = case.join("diagnosis.part");
+    std::fs::write(&part, text)
+        .and_then(|()| std::fs::rename(&part, &file))
+        .map_err(|e| ChallengeError::file(&file, e))
 }
 
 fn judge(truth: Truth, said: &Diagnosis, oracle: Option<f64>) -> Result {

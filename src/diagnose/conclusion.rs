@@ -87,7 +87,7 @@ fn kind(
         _ if explained < EXPLAINED && last.mean_square() >= SOUND => Kind::Unexplained,
         _ if worsens || last.mean_square() > LEFT => Kind::Unexplained,
         // so many, and still not all of it: they imitate something else
-        ref named if named.len() == MOST && last.mean_square() >= SOUND => Kind::Unexplained,
+        _ if last.named.len() == MOST && last.mean_square() >= SOUND => Kind::Unexplained,
         [_] if !last.alternatives.is_empty() => Kind::Class,
         [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
         [_] => Kind::Effect,

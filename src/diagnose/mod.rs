@@ -40,9 +40,10 @@ const ODDS: f64 = 6.0;
 const MOST: usize = 3;
 /// Most searches for a further effect; one may make another needless.
 const ROUNDS: usize = 4;
-/// Mean squared residual of the calibrated scenario beyond which noise doesn't tell how much a channel counts, and how often
-/// it is calibrated anew to find out.
-const FAR_OFF: (f64, usize) = (500.0, 2);
+/// Mean squared residual of the calibrated scenario beyond which noise doesn't tell how much a channel counts.
+const FAR_OFF: f64 = 500.0;
+/// How often it is calibrated anew then, to find out.
+const WEIGHED: usize = 2;
 /// Mean platform error [mm] of the calibrated scenario beyond which a recording is taken for that of another robot.
 const OTHER_ROBOT: f64 = 40.0;
 
@@ -94,24 +95,15 @@ pub fn diagnose(
     let baseline = loop {
         let empty = Trial::new(request.source, &own, &train);
         let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
-        let worst = baseline.scores.worst_mm();
-        if worst > OTHER_ROBOT {
-            return Err(DiagnoseError::Unfit(format!(
-                "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, its motors are in another \
-                 order, or it has other units (positions are in m, motors in ticks of which 4096 are a turn); give the scenario \
-                 of the robot that was recorded"
-            )));
-        }
-        if weighed == FAR_OFF.1 || weighed == 0 && baseline.mean_square() < FAR_OFF.0 {
+        same_robot(&baseline)?;
+        if weighed == WEIGHED || weighed == 0 && baseline.mean_square() < FAR_OFF {
             break baseline;
         }
         weighed += 1;
         // so that a kind of channel that is modelled badly doesn't decide about all others
         let off = baseline.off();
-        let least = off.iter().copied().fold(f64::INFINITY, f64::min);
         for samples in train.iter_mut().chain(&mut holdout) {
-            let wider = samples.wider.iter_mut().zip(off);
-            wider.for_each(|(wider, off)| *wider *= off / least);
+            samples.widen(off);
         }
     };
     told(0.1);
@@ -131,6 +123,19 @@ pub fn diagnose(
     diagnosis.seconds = start.elapsed().as_secs_f64();
     told(1.0);
     Ok((diagnosis, augmented))
+}
+
+/// Refuses a calibrated scenario that is of another robot than the recordings.
+fn same_robot(baseline: &Standing<'_>) -> Result<(), DiagnoseError> {
+    let worst = baseline.scores.worst_mm();
+    if worst <= OTHER_ROBOT {
+        return Ok(());
+    }
+    Err(DiagnoseError::Unfit(format!(
+        "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, its motors are in another \
+         order, or it has other units (positions are in m, motors in ticks of which 4096 are a turn); give the scenario \
+         of the robot that was recorded"
+    )))
 }
 
 /// Something that scenario and recordings can't do together.

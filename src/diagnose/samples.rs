@@ -124,6 +124,14 @@ impl Samples {
         }
     }
 
+    /// Takes residuals of each kind to spread wider by how far `off` they are over those that are least so.
+    pub fn widen(&mut self, off: [f64; KINDS.len()]) {
+        let least = off.iter().copied().fold(f64::INFINITY, f64::min);
+        for (wider, off) in self.wider.iter_mut().zip(off) {
+            *wider *= off / least;
+        }
+    }
+
     /// Times between the sample before `i` and `i` that a model which remembers must pass \[s\].
     pub fn on_the_way(&self, i: usize) -> &[f64] {
         let from = if i == 0 {
