@@ -1,13 +1,16 @@
 //! Blind challenges: the same seed makes the same recordings, nothing is named where nothing is concealed, and a truth
 //! that was changed afterwards is refused.
 
-use auxetica::challenge::{RECORDINGS, SEAL, Spec, TRUTH, conceal, score};
+use auxetica::challenge::{RECORDINGS, Recorded, SEAL, Spec, TRUTH, conceal, score};
 use std::path::Path;
 
 fn spec() -> (Spec, auxetica::config::Source) {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/challenges/small.ron");
     let (mut spec, nominal) = Spec::load(&file).unwrap_or_else(|e| panic!("{e}"));
-    (spec.controls, spec.singles, spec.set_points) = (1, 0, 8);
+    (spec.controls, spec.singles) = (1, 0);
+    if let Recorded::Simulated(tours) = &mut spec.recordings {
+        tours.set_points = 8;
+    }
     (spec, nominal)
 }
 
@@ -33,10 +36,10 @@ fn a_control_is_given_nothing_and_its_truth_is_sealed() {
         "it was there"
     );
 
-    let (results, tally) = score(&one, 1, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let (results, tally) = score(&one, 1, false, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(tally.controls, (1, 0), "{:?}", results[0].said);
     std::fs::write(one.join(TRUTH), "[]").expect("changed");
-    let Err(refused) = score(&one, 1, &|_| ()) else {
+    let Err(refused) = score(&one, 1, false, &|_| ()) else {
         panic!("a changed truth was taken");
     };
     let refused = refused.to_string();

@@ -5,14 +5,17 @@
 //! [`TRUTH`]; its hash stands beside the cases. [`score`] diagnoses every case first and opens the truth afterwards.
 
 mod conceal;
+mod draw;
 mod score;
+mod set_points;
 mod spec;
-mod tours;
+mod spiked;
+mod toured;
 mod truth;
 
 pub use conceal::conceal;
 pub use score::{Result as CaseResult, Tally, score};
-pub use spec::{Foreign, Spec};
+pub use spec::{Foreign, Onto, Recorded, Spec, Tours};
 pub use truth::{Concealed, Truth};
 
 /// File of what the cases conceal.
@@ -21,7 +24,7 @@ pub const TRUTH: &str = "truth.json";
 pub const SEAL: &str = "truth.sha256";
 /// The scenario that cases are to be diagnosed with.
 pub const NOMINAL: &str = "nominal.ron";
-/// Recordings of a case: two to train on, two to judge by.
+/// Simulated recordings of a case: two to train on, two to judge by.
 pub const RECORDINGS: [&str; 4] = [
     "train_0_circle",
     "train_1_mix",

@@ -1,10 +1,11 @@
 //! Diagnoses every case, then opens the truth and counts.
 
 use super::truth::{Concealed, Truth};
-use super::{ChallengeError, NOMINAL, RECORDINGS, SEAL, TRUTH, hash};
+use super::{ChallengeError, NOMINAL, SEAL, TRUTH, hash};
 use crate::config::Source;
 use crate::diagnose::verdict::{Diagnosis, Kind};
 use crate::diagnose::{Request, diagnose, oracle};
+use crate::identify::Effect;
 use rayon::prelude::*;
 use statrs::statistics::{Data, Median};
 use std::path::{Path, PathBuf};
@@ -12,6 +13,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// File of a case's diagnosis, kept so that an interrupted score goes on.
 const DIAGNOSIS: &str = "diagnosis.json";
+/// The same of its diagnosis without the concealed effects.
+const HIDDEN: &str = "hidden.json";
 /// Share of the floor above which a mismatch is visible.
 pub const VISIBLE: f64 = 0.7;
 
@@ -33,6 +36,8 @@ pub struct Result {
     pub values: Vec<(f64, bool)>,
     /// Held-out position error of the improved model over that of the true effect's model.
     pub over_oracle: Option<f64>,
+    /// The verdict without the true effects in the library, if that was asked for.
+    pub hidden: Option<Kind>,
     /// Time it took \[s\].
     pub seconds: f64,
 }
@@ -54,6 +59,9 @@ pub struct Tally {
     pub doubles: (usize, usize),
     /// Visible effects that are in no library, and those that were given to another without a warning.
     pub foreigners: (usize, usize),
+    /// Visible single effects that were hidden from the library, and those that were given to another then without a
+    /// warning.
+    pub hidden: (usize, usize),
     /// Median error of values, over their sizes.
     pub value_error: f64,
     /// Share of intervals that hold the truth.
@@ -62,27 +70,23 @@ pub struct Tally {
     pub over_oracle: f64,
 }
 
-/// Diagnoses the cases in `folder` that have no diagnosis yet, without the truth; then opens it.
+/// Diagnoses the cases in `folder` that have no diagnosis yet, without the truth; then opens it. To `hide` is to diagnose
+/// each case once more then, without the effects that it conceals.
 ///
 /// # Errors
 /// If a case can't be diagnosed, or the truth isn't the one that was sealed.
 pub fn score(
     folder: &Path,
     seed: u64,
+    hide: bool,
     told: &(dyn Fn(f64) + Sync),
 ) -> std::result::Result<(Vec<Result>, Tally), ChallengeError> {
-    let read =
-        |file: &Path| std::fs::read_to_string(file).map_err(|e| ChallengeError::file(file, e));
     let nominal = Source::load(&folder.join(NOMINAL), &[])?;
-    let entries = std::fs::read_dir(folder).map_err(|e| ChallengeError::file(folder, e))?;
-    let mut cases: Vec<PathBuf> = entries
-        .filter_map(|e| e.ok().map(|e| e.path()))
-        .filter(|p| p.join(RECORDINGS[0]).is_dir())
-        .collect();
+    let mut cases = folders(folder)?;
     cases.sort();
     let done = AtomicUsize::new(0);
     cases.par_iter().try_for_each(|case| {
-        keep_diagnosis(case, &nominal, seed)?;
+        keep_diagnosis(case, DIAGNOSIS, &nominal, (&[], seed))?;
         let done = done.fetch_add(1, Ordering::Relaxed) + 1;
         told(done as f64 / cases.len() as f64);
         Ok::<_, ChallengeError>(())
@@ -94,16 +98,10 @@ pub fn score(
             "`{TRUTH}` is not the truth that was sealed in `{SEAL}`; make the challenge anew"
         )));
     }
-    let unreadable = |what: &Path, e: serde_json::Error| {
-        ChallengeError::Unfit(format!("`{}`: {e}", what.display()))
-    };
-    let truths: Vec<Truth> =
-        serde_json::from_str(&sealed).map_err(|e| unreadable(&folder.join(TRUTH), e))?;
+    let truths: Vec<Truth> = parsed(&folder.join(TRUTH), &sealed)?;
     let judged = truths.into_par_iter().map(|truth| {
         let case = folder.join(&truth.case);
-        let file = case.join(DIAGNOSIS);
-        let said: Diagnosis =
-            serde_json::from_str(&read(&file)?).map_err(|e| unreadable(&file, e))?;
+        let said = keep_diagnosis(&case, DIAGNOSIS, &nominal, (&[], seed))?;
         let known: Vec<(String, String, Vec<f64>)> = (truth.effects.iter())
             .filter(|e| e.id != Concealed::FOREIGN)
             .map(|e| {
@@ -111,70 +109,122 @@ pub fn score(
                 (e.id.clone(), e.form.clone(), values)
             })
             .collect();
-        let best = if known.is_empty() {
-            None
-        } else {
-            let [train, holdout] = recordings(&case);
-            oracle(&request(&nominal, &train, &holdout, seed), &known).ok()
-        };
-        Ok(judge(truth, &said, best))
+        let (mut best, mut hidden) = (None, None);
+        if !known.is_empty() {
+            let [train, holdout] = recordings(&case)?;
+            best = oracle(&request(&nominal, &train, &holdout, (&[], seed)), &known).ok();
+            if hide {
+                let concealed = |e: &dyn Effect| known.iter().any(|(id, ..)| id == e.id());
+                let others = <dyn Effect>::all().into_iter();
+                let others = others.filter(|e| !concealed(&**e)).map(|e| e.id().to_owned());
+                let others: Vec<String> = others.collect();
+                hidden = Some(keep_diagnosis(&case, HIDDEN, &nominal, (&others, seed))?);
+            }
+        }
+        Ok(judge(truth, &said, best, hidden.as_ref()))
     });
-    let results = judged.collect::<std::result::Result<Vec<_>, ChallengeError>>()?;
+    let mut results = judged.collect::<std::result::Result<Vec<_>, ChallengeError>>()?;
+    without_what_was_there(&mut results);
     let tally = Tally::of(&results);
     told(1.0);
     Ok((results, tally))
 }
 
 /// Folders of a case's recordings: to train on, and to judge by.
-fn recordings(case: &Path) -> [Vec<PathBuf>; 2] {
-    let (train, holdout) = RECORDINGS.split_at(2);
-    [train, holdout].map(|names| names.iter().map(|name| case.join(name)).collect())
+fn recordings(case: &Path) -> std::result::Result<[Vec<PathBuf>; 2], ChallengeError> {
+    let mut folders = folders(case)?;
+    folders.sort();
+    Ok(["train_", "holdout_"].map(|role| {
+        let name = |f: &&PathBuf| {
+            let name = f.file_name().and_then(|name| name.to_str());
+            name.is_some_and(|name| name.starts_with(role))
+        };
+        folders.iter().filter(name).cloned().collect()
+    }))
+}
+
+fn folders(of: &Path) -> std::result::Result<Vec<PathBuf>, ChallengeError> {
+    let entries = std::fs::read_dir(of).map_err(|e| ChallengeError::file(of, e))?;
+    let paths = entries.filter_map(|e| e.ok().map(|e| e.path()));
+    Ok(paths.filter(|path| path.is_dir()).collect())
 }
 
 fn request<'a>(
     source: &'a Source,
     train: &'a [PathBuf],
     holdout: &'a [PathBuf],
-    seed: u64,
+    (effects, seed): (&'a [String], u64),
 ) -> Request<'a> {
     Request {
         source,
         train,
         holdout,
-        effects: &[],
+        effects,
         seed,
     }
 }
 
-/// Diagnoses a case, unless its diagnosis is there.
+/// The diagnosis of a case by some effects, kept in `file`, from which it is read if it is there.
 fn keep_diagnosis(
     case: &Path,
+    file: &str,
     nominal: &Source,
-    seed: u64,
-) -> std::result::Result<(), ChallengeError> {
-    let file = case.join(DIAGNOSIS);
+    by: (&[String], u64),
+) -> std::result::Result<Diagnosis, ChallengeError> {
+    let file = case.join(file);
     if file.exists() {
-        return Ok(());
+        return parsed(&file, &read(&file)?);
     }
-    let [train, holdout] = recordings(case);
-    let diagnosis = diagnose(&request(nominal, &train, &holdout, seed), &|_| ());
+    let [train, holdout] = recordings(case)?;
+    let diagnosis = diagnose(&request(nominal, &train, &holdout, by), &|_| ());
     let (diagnosis, _) = diagnosis.map_err(|source| ChallengeError::Diagnosis {
         case: case.display().to_string(),
         source,
     })?;
     let text = serde_json::to_string_pretty(&diagnosis).expect("a diagnosis is plain data");
-    let part = case.join("diagnosis.part");
+    let part = file.with_extension("part");
     std::fs::write(&part, text)
         .and_then(|()| std::fs::rename(&part, &file))
-        .map_err(|e| ChallengeError::file(&file, e))
+        .map_err(|e| ChallengeError::file(&file, e))?;
+    Ok(diagnosis)
 }
 
-fn judge(truth: Truth, said: &Diagnosis, oracle: Option<f64>) -> Result {
+fn read(file: &Path) -> std::result::Result<String, ChallengeError> {
+    std::fs::read_to_string(file).map_err(|e| ChallengeError::file(file, e))
+}
+
+fn parsed<T: serde::de::DeserializeOwned>(
+    file: &Path,
+    text: &str,
+) -> std::result::Result<T, ChallengeError> {
+    serde_json::from_str(text)
+        .map_err(|e| ChallengeError::Unfit(format!("`{}`: {e}", file.display())))
+}
+
+/// Gives no credit for what is named in the same real recordings when nothing is concealed in them.
+fn without_what_was_there(results: &mut [Result]) {
+    let controls = |r: &&Result| r.truth.real && r.truth.effects.is_empty();
+    let there: Vec<String> = (results.iter().filter(controls))
+        .flat_map(|r| r.said.clone())
+        .collect();
+    for r in results {
+        if r.truth.effects.iter().any(|e| there.contains(&e.id)) {
+            r.right = false;
+        }
+    }
+}
+
+fn judge(
+    truth: Truth,
+    said: &Diagnosis,
+    oracle: Option<f64>,
+    hidden: Option<&Diagnosis>,
+) -> Result {
     let ids: Vec<String> = (said.effects.iter().map(|e| e.id.clone()))
         .chain(said.alternatives.iter().map(|a| a.id.clone()))
         .collect();
-    // what is said beside "unexplained" isn't claimed
-    let claimed = said.verdict != Kind::Unexplained;
+    // what is said beside "unexplained" isn't claimed, but of real recordings there is always something unexplained
+    let claimed = truth.real || said.verdict != Kind::Unexplained;
     let right = match truth.effects.len() {
         0 => said.verdict == Kind::None,
         1 if truth.effects[0].id == Concealed::FOREIGN => said.verdict == Kind::Unexplained,
@@ -207,6 +257,7 @@ fn judge(truth: Truth, said: &Diagnosis, oracle: Option<f64>) -> Result {
         said: ids,
         right,
         values,
+        hidden: hidden.map(|h| h.verdict),
         truth,
     }
 }
@@ -214,19 +265,21 @@ fn judge(truth: Truth, said: &Diagnosis, oracle: Option<f64>) -> Result {
 impl Tally {
     fn of(results: &[Result]) -> Self {
         let mut tally = Self::default();
+        let warned = |verdict| matches!(verdict, Kind::Unexplained | Kind::None);
         let (mut errors, mut ratios) = (Vec::new(), Vec::new());
         for r in results {
             let foreign = r.truth.effects.iter().any(|e| e.id == Concealed::FOREIGN);
             let visible = r.visible > VISIBLE;
             match r.truth.effects.len() {
+                // nobody knows what real recordings conceal
+                0 if r.truth.real => {}
                 0 => {
                     tally.controls.0 += 1;
                     tally.controls.1 += usize::from(!r.right);
                 }
                 1 if foreign && visible => {
                     tally.foreigners.0 += 1;
-                    let warned = [Kind::Unexplained, Kind::None];
-                    tally.foreigners.1 += usize::from(!warned.contains(&r.verdict));
+                    tally.foreigners.1 += usize::from(!warned(r.verdict));
                 }
                 1 if visible && !foreign => {
                     let id = &r.truth.effects[0].id;
@@ -236,6 +289,10 @@ impl Tally {
                     let third = r.said.iter().take(3).any(|s| s == id);
                     tally.third += usize::from(r.right && third);
                     tally.hooks += usize::from(r.right_hook);
+                    if let Some(verdict) = r.hidden {
+                        tally.hidden.0 += 1;
+                        tally.hidden.1 += usize::from(!warned(verdict));
+                    }
                 }
                 2 if visible => {
                     tally.doubles.0 += 1;

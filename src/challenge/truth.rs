@@ -13,6 +13,8 @@ pub struct Truth {
     pub parameters: Vec<(String, f64)>,
     /// Number of elements.
     pub elements: usize,
+    /// Whether it is concealed in real recordings, which may conceal more that nobody has put down.
+    pub real: bool,
 }
 
 /// An effect that is concealed.

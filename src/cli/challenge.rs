@@ -4,6 +4,7 @@ use super::progress::shared;
 use super::table::table;
 use super::{Failure, print};
 use crate::challenge::{self, CaseResult, Spec, Tally};
+use crate::diagnose::verdict::Kind;
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -31,6 +32,9 @@ pub(super) struct ScoreOptions {
     /// End with an error if less than this share of visible single effects is named rightly.
     #[arg(long, value_name = "SHARE")]
     at_least_right: Option<f64>,
+    /// Diagnose each case once more without the effects that it conceals.
+    #[arg(long)]
+    hide: bool,
 }
 
 pub(super) fn conceal(options: &ConcealOptions, quiet: bool) -> Result<(), Failure> {
@@ -49,7 +53,7 @@ pub(super) fn conceal(options: &ConcealOptions, quiet: bool) -> Result<(), Failu
 
 pub(super) fn score(options: &ScoreOptions, quiet: bool) -> Result<(), Failure> {
     let told = shared("diagnosing", quiet);
-    let (results, tally) = challenge::score(&options.challenge, options.seed, &told)?;
+    let (results, tally) = challenge::score(&options.challenge, options.seed, options.hide, &told)?;
     drop(told);
     print(&format!("{}\n{}", cases(&results), summary(&tally)))?;
     let share = |(all, some): (usize, usize)| some as f64 / (all.max(1)) as f64;
@@ -88,6 +92,7 @@ fn cases(results: &[CaseResult]) -> String {
             r.verdict.name(),
             r.said.join(", "),
             (if r.right { "yes" } else { "no" }).into(),
+            r.hidden.map_or(String::new(), Kind::name),
             r.over_oracle.map_or(String::new(), |x| format!("{x:.2}")),
             format!("{:.0}", r.seconds),
         ]
@@ -100,6 +105,7 @@ fn cases(results: &[CaseResult]) -> String {
             "verdict",
             "said",
             "right",
+            "hidden",
             "/oracle",
             "s",
         ],
@@ -122,6 +128,10 @@ fn summary(t: &Tally) -> String {
         (
             "visible effects of no library, given to another",
             of(t.foreigners),
+        ),
+        (
+            "visible effects hidden from the library, given to another",
+            of(t.hidden),
         ),
         (
             "median error of values",
