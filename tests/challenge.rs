@@ -1,7 +1,9 @@
 //! Blind challenges: the same seed makes the same recordings, nothing is named where nothing is concealed, and a truth
 //! that was changed afterwards is refused.
 
-use auxetica::challenge::{RECORDINGS, Recorded, SEAL, Spec, TRUTH, conceal, score};
+use auxetica::challenge::{Onto, RECORDINGS, Recorded, SEAL, Spec, TRUTH, conceal, score};
+use auxetica::config::Positive;
+use auxetica::recordings::Recording;
 use std::path::Path;
 
 fn spec() -> (Spec, auxetica::config::Source) {
@@ -44,6 +46,52 @@ fn a_control_is_given_nothing_and_its_truth_is_sealed() {
     };
     let refused = refused.to_string();
     assert!(refused.contains(SEAL), "{refused}");
+}
+
+#[test]
+fn an_effect_concealed_in_given_recordings_is_named_and_nothing_else_moved() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let positive = |x: f64| Positive::new(x).expect("it is positive");
+    let (mut spec, nominal) = spec();
+    let given = folder.path().join("given");
+    conceal(&spec, &nominal, &given, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let control = given.join("case_000");
+    let given = |name: &str| control.join(name).display().to_string();
+    spec.singles = 1;
+    spec.effects = vec!["backlash".into()];
+    spec.strength = (positive(2.0), positive(3.0));
+    spec.recordings = Recorded::Real(Onto {
+        train: RECORDINGS[..2].iter().map(|name| given(name)).collect(),
+        holdout: vec![given(RECORDINGS[2])],
+    });
+    let out = folder.path().join("spiked");
+    let truths = conceal(&spec, &nominal, &out, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let platform = |folder: &Path| {
+        let recording = Recording::read(folder).unwrap_or_else(|e| panic!("{e}"));
+        recording.mocap.expect("it has poses").platform.position
+    };
+    for truth in &truths {
+        let before = platform(&control.join(RECORDINGS[0]));
+        let after = platform(&out.join(&truth.case).join("train_0_train_0_circle"));
+        let apart = before.iter().zip(&after).map(|(a, b)| (a - b).norm());
+        let most = apart.fold(0.0, f64::max);
+        let moved = if truth.effects.is_empty() {
+            0.0..1e-12
+        } else {
+            1e-3..1e-2
+        };
+        assert!(moved.contains(&most), "{}: {most} m", truth.case);
+    }
+    let (results, tally) = score(&out, 1, true, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let said = results.iter().map(|r| (r.verdict, &r.said));
+    assert_eq!(tally.singles, (1, 1), "{:?}", said.collect::<Vec<_>>());
+    assert_eq!(
+        tally.controls,
+        (0, 0),
+        "nobody knows what is in given recordings"
+    );
+    let hidden = results.iter().filter(|r| r.hidden.is_some());
+    assert_eq!(hidden.count(), 1, "the single one, without backlash");
 }
 
 #[test]

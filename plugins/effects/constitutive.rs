@@ -199,6 +199,15 @@ effect!(
                 )
             })
         };
+        let left: Vec<&String> = robot.rods.iter().zip(&robot.handed).filter(|(_, h)| **h < 0.0).map(|(rod, _)| rod).collect();
+        if !left.is_empty() && left.len() < robot.rods.len() {
+            forms.push(
+                Variant::new("stretch and twist stiffness of left-handed rods")
+                    .number("axial gain of left-handed rods", "-", (1.0, 1.1), (0.3, 3.0))
+                    .number("twist gain of left-handed rods", "-", (1.0, 1.1), (0.3, 3.0))
+                    .append("laws", format!("(on: {left:?}, apply: Stiffness(axial: {{0}}, twist: {{1}}))")),
+            );
+        }
         if robot.rods.len() > 1 {
             let twist = |name| over_first(Variant::new(name), "twist", "twist");
             forms.push(twist("twist stiffness of each rod"));
@@ -223,6 +232,17 @@ effect!(
         };
         let mut forms = each_rod(robot, "", |v, rod| form(v, &format!("on: {rod:?}, ")));
         forms.push(form(Variant::new("all rods"), ""));
+        let mut own = Variant::new("each rod");
+        for (i, rod) in robot.rods.iter().enumerate() {
+            for (d, about) in ["d1", "d2"].iter().enumerate() {
+                // unlike, since alike rods are the form before
+                let typical = [[0.5, 0.1], [-0.1, 0.5], [-0.5, -0.1], [0.1, -0.5]][i % 4][d];
+                own = own.number(format!("curvature of {rod} about {about}"), "rad/m", (0.0, typical), (-20.0, 20.0));
+            }
+            let (a, b) = (2 * i, 2 * i + 1);
+            own = own.append("laws", format!("(on: {rod:?}, apply: Intrinsic(curvature: ({{{a}}}, {{{b}}}, 0)))"));
+        }
+        forms.push(own);
         forms
     }
 );

@@ -1,10 +1,10 @@
 //! Draws what a case conceals.
 
+use super::ChallengeError;
 use super::spec::{Recorded, Spec};
 use super::spiked::Background;
-use super::truth::{Concealed, Truth};
 use super::toured::normal;
-use super::ChallengeError;
+use super::truth::{Concealed, Truth};
 use crate::compare::CompareError;
 use crate::config::{Problem, Problems, Source};
 use crate::identify::{Effect, Parameter, Robot, Variant};

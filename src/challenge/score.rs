@@ -116,7 +116,9 @@ pub fn score(
             if hide {
                 let concealed = |e: &dyn Effect| known.iter().any(|(id, ..)| id == e.id());
                 let others = <dyn Effect>::all().into_iter();
-                let others = others.filter(|e| !concealed(&**e)).map(|e| e.id().to_owned());
+                let others = others
+                    .filter(|e| !concealed(&**e))
+                    .map(|e| e.id().to_owned());
                 let others: Vec<String> = others.collect();
                 hidden = Some(keep_diagnosis(&case, HIDDEN, &nominal, (&others, seed))?);
             }

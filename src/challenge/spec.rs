@@ -66,7 +66,7 @@ pub struct Tours {
     pub jitter: NonNegative,
 }
 
-/// Names of real recordings, folders in `recordings/` of the data.
+/// Real recordings: folders in `recordings/` of the data, or elsewhere.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Onto {

@@ -5,9 +5,7 @@ use super::spec::Onto;
 use crate::compare::{CompareError, film, motor_inputs};
 use crate::config::Source;
 use crate::engine::Inputs;
-use crate::recordings::{
-    Body, Mocap, MotorAngles, Pose, Recording, Track, to_base, to_world,
-};
+use crate::recordings::{Body, Mocap, MotorAngles, Pose, Recording, Track, to_base, to_world};
 use crate::reproduce::Data;
 
 /// A real recording with motion capture.
@@ -36,11 +34,10 @@ impl Background {
         names
             .enumerate()
             .map(|(i, (role, name))| {
-                let folder = data.find(&format!("recordings/{name}"));
-                let folder = folder.map_err(|e| ChallengeError::Unfit(e.to_string()))?;
+                let folder = data.folder().join("recordings").join(name);
                 let mut recording = Recording::read(folder)?;
                 recording.require_mocap()?;
-                recording.name = format!("{role}_{i}_{name}");
+                recording.name = format!("{role}_{i}_{}", recording.name);
                 let motors = MotorAngles::new(&recording);
                 let inputs = motor_inputs(&motors.time, &motors.present);
                 Ok(Self {

@@ -261,9 +261,8 @@ fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
         )
     };
     let mut lines: Vec<String> = train.iter().chain(holdout).map(line).collect();
-    let wider = train[0].wider;
-    if wider.iter().any(|w| *w > 1.0) {
-        let each = KINDS.iter().zip(wider);
+    if train[0].weighed() {
+        let each = KINDS.iter().zip(train[0].wider);
         let each: Vec<_> = each.map(|(kind, w)| format!("the {kind} {w:.1}")).collect();
         lines.push(format!(
             "the calibrated scenario is so far off that residuals count by how far off their kind is; over noise they are \

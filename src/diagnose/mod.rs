@@ -42,8 +42,8 @@ const MOST: usize = 3;
 const ROUNDS: usize = 4;
 /// Mean squared residual of the calibrated scenario beyond which noise doesn't tell how much a channel counts.
 const FAR_OFF: f64 = 500.0;
-/// How often it is calibrated anew then, to find out.
-const WEIGHED: usize = 2;
+/// Samples of a recording that are enough then, since what is modelled badly shows in neighbours alike.
+const ENOUGH: usize = 70;
 /// Mean platform error [mm] of the calibrated scenario beyond which a recording is taken for that of another robot.
 const OTHER_ROBOT: f64 = 40.0;
 
@@ -91,20 +91,26 @@ pub fn diagnose(
     let (mut train, mut holdout) = read(request)?;
     let effects = chosen(request.effects)?;
     let forms = search::forms(&effects, &Robot::of(request.source)?);
-    let mut weighed = 0;
+    let mut weighed = false;
     let baseline = loop {
         let empty = Trial::new(request.source, &own, &train);
         let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
         same_robot(&baseline)?;
-        if weighed == WEIGHED || weighed == 0 && baseline.mean_square() < FAR_OFF {
+        if weighed || baseline.mean_square() < FAR_OFF {
             break baseline;
         }
-        weighed += 1;
-        // so that a kind of channel that is modelled badly doesn't decide about all others
-        let off = baseline.off();
+        // so that a kind of channel that is modelled badly doesn't decide about all others; what it counts changes the fit
+        let mut off = standing::off(&baseline.trial, &baseline.fit);
+        for samples in train.iter_mut().chain(&mut holdout) {
+            samples.thin(ENOUGH);
+            samples.widen(off);
+        }
+        let (trial, fit) = standing::fitted(Trial::new(request.source, &own, &train))?;
+        off = standing::off(&trial, &fit);
         for samples in train.iter_mut().chain(&mut holdout) {
             samples.widen(off);
         }
+        weighed = true;
     };
     told(0.1);
     let mut last = baseline.clone();

@@ -124,6 +124,17 @@ impl Samples {
         }
     }
 
+    /// Whether kinds of channels count by how far off they are.
+    #[must_use]
+    pub fn weighed(&self) -> bool {
+        self.wider.iter().any(|wider| *wider > 1.0)
+    }
+
+    /// Leaves so many samples at most, evenly.
+    pub fn thin(&mut self, most: usize) {
+        thin(&mut self.list, most);
+    }
+
     /// Takes residuals of each kind to spread wider by how far `off` they are over those that are least so.
     pub fn widen(&mut self, off: [f64; KINDS.len()]) {
         let least = off.iter().copied().fold(f64::INFINITY, f64::min);
@@ -244,14 +255,7 @@ impl Samples {
                 recording.name
             )));
         }
-        // evenly of each phase, since phases alternate
-        let every = list.len().div_ceil(MOST);
-        let mut counts = [0; 3];
-        list.retain(|sample| {
-            let count = &mut counts[sample.phase as usize];
-            *count += 1;
-            (*count - 1_usize).is_multiple_of(every)
-        });
+        thin(&mut list, MOST);
         let lively = |row: &usize| {
             let recent = row.saturating_sub(RELAXING)..*row;
             let every = match still[*row] {
@@ -281,6 +285,17 @@ impl Samples {
             flipped: 0,
         })
     }
+}
+
+/// Leaves so many samples at most, evenly of each phase, since phases alternate.
+fn thin(list: &mut Vec<Sample>, most: usize) {
+    let every = list.len().div_ceil(most).max(1);
+    let mut counts = [0; 3];
+    list.retain(|sample| {
+        let count = &mut counts[sample.phase as usize];
+        *count += 1;
+        (*count - 1_usize).is_multiple_of(every)
+    });
 }
 
 /// How the motors turn.

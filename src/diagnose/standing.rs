@@ -17,6 +17,8 @@ use std::sync::Arc;
 
 /// Share of chi2 that an effect must explain to be named, and a further one where little is left to explain.
 const GAIN: [f64; 2] = [0.25, 0.5];
+/// The same where the calibrated scenario is far off: many things are missing then, none of which explains much.
+const GAIN_FAR_OFF: f64 = 0.1;
 /// How many effects are held against recordings held out before a search is given up.
 const TRIED: usize = 3;
 /// Shares of chi2 within which two effects can't be told apart, beside [`ODDS`].
@@ -98,24 +100,6 @@ impl<'a> Standing<'a> {
         self.tolerant.chi2() / self.trial.measured()
     }
 
-    /// How many deviations each kind of channel is off: root mean squares of recordings, and of these the median.
-    pub(super) fn off(&self) -> [f64; KINDS.len()] {
-        let mut each: [Vec<f64>; KINDS.len()] = Default::default();
-        let mut rest = self.fit.residuals.as_slice();
-        for samples in self.trial.data {
-            let (own, others) = rest.split_at(samples.list.len() * CHANNELS);
-            rest = others;
-            let mut squares = [0.0; KINDS.len()];
-            for (i, r) in own.iter().enumerate() {
-                squares[i % CHANNELS / 3] += r * r;
-            }
-            for (each, sum) in each.iter_mut().zip(squares) {
-                each.push((sum * KINDS.len() as f64 / own.len() as f64).sqrt());
-            }
-        }
-        each.map(|of_recordings| Data::new(of_recordings).median())
-    }
-
     /// Sum of the squared residuals beyond what noise and shared errors make.
     pub(super) fn beyond_noise(&self) -> f64 {
         (self.tolerant.chi2() - self.trial.measured()).max(0.0)
@@ -134,7 +118,11 @@ impl<'a> Standing<'a> {
         let used: Vec<usize> = self.named.iter().map(|(f, _)| forms[*f].effect).collect();
         let found = search::round(&self.trial, &self.fit, forms, &used, told);
         let much = self.named.is_empty() || self.mean_square() > LEFT;
-        let gain = if much { GAIN[0] } else { GAIN[1] };
+        let gain = match much {
+            _ if self.trial.data[0].weighed() => GAIN_FAR_OFF,
+            true => GAIN[0],
+            false => GAIN[1],
+        };
         let mut found = self.tolerated(found, forms)?;
         for _ in 0..TRIED {
             let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
@@ -247,6 +235,36 @@ impl<'a> Standing<'a> {
         alike.remove(0);
         Some((best, 1.0 / total, alike))
     }
+}
+
+/// The scenario's own numbers fitted from their nominal values.
+///
+/// # Errors
+/// If the scenario has no steady state at a sample.
+pub(super) fn fitted(empty: Trial<'_>) -> Result<(Trial<'_>, Linear), DiagnoseError> {
+    let nominal: Vec<f64> = empty.own.iter().map(|p| p.nominal).collect();
+    let mut start = empty.start(&nominal, None).map_err(unfit)?;
+    let empty = empty.doubting(&mut start);
+    let fit = empty.fit(start, 0..nominal.len(), STEPS.0);
+    Ok(settled(empty, fit))
+}
+
+/// How many deviations each kind of channel is off: root mean squares of recordings, and of these the median.
+pub(super) fn off(trial: &Trial<'_>, fit: &Linear) -> [f64; KINDS.len()] {
+    let mut each: [Vec<f64>; KINDS.len()] = Default::default();
+    let mut rest = fit.residuals.as_slice();
+    for samples in trial.data {
+        let (own, others) = rest.split_at(samples.list.len() * CHANNELS);
+        rest = others;
+        let mut squares = [0.0; KINDS.len()];
+        for (i, r) in own.iter().enumerate() {
+            squares[i % CHANNELS / 3] += r * r;
+        }
+        for (each, sum) in each.iter_mut().zip(squares) {
+            each.push((sum * KINDS.len() as f64 / own.len() as f64).sqrt());
+        }
+    }
+    each.map(|of_recordings| Data::new(of_recordings).median())
 }
 
 /// A fit continued as far as what is known beforehand must count otherwise now.
