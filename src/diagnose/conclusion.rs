@@ -1,5 +1,6 @@
 //! From fitted models to what a diagnosis says.
 
+use super::experiments::{self, Chosen, Member};
 use super::forward::NUMERICS;
 use super::locate;
 use super::samples::{KINDS, Phase, Sample, Samples};
@@ -9,6 +10,7 @@ use super::verdict::{
     Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
 };
 use super::{LEFT, MOST, SOUND};
+use crate::config::Source;
 use crate::identify::{Effect, Hooked, Parameter, Quantity};
 
 /// Share of the mismatch beyond noise that the named effects must explain.
@@ -16,10 +18,10 @@ const EXPLAINED: f64 = 0.6;
 /// Deviations from its prior beyond which a calibrated number is told.
 const FAR: f64 = 2.5;
 
-/// What a diagnosis says that began at `baseline` and ended at `last`.
+/// What a diagnosis says that began at `baseline` and ended at `last`, whose scenario is `augmented`.
 pub(super) fn conclude(
     baseline: &Standing<'_>,
-    last: &Standing<'_>,
+    (last, augmented): (&Standing<'_>, &Source),
     forms: &[Form],
     effects: &[Box<dyn Effect>],
     holdout: &[Samples],
@@ -35,17 +37,18 @@ pub(super) fn conclude(
     let kind = kind(baseline, last, (explained, !worsened.is_empty()), hook);
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
-    let ids: Vec<String> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
-        .chain(last.alternatives.iter().map(|e| &effects[*e]))
-        .map(|e| e.id().to_owned())
+    let alike: Vec<&dyn Effect> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
+        .chain(last.alternatives.iter().map(|a| &effects[a.effect]))
+        .map(|e| &**e)
         .collect();
-    let ambiguous = !last.alternatives.is_empty() && [Kind::Class, Kind::Several].contains(&kind);
-    let experiment = last.named.last().filter(|_| ambiguous);
-    let experiment = experiment.map(|(form, _)| Experiment {
-        words: effect(*form).experiment().to_owned(),
-        discriminates: ids.clone(),
-    });
+    let ids: Vec<String> = alike.iter().map(|e| e.id().to_owned()).collect();
     let floor = floor(train);
+    let experiment = match kind {
+        Kind::Class | Kind::Several | Kind::Unexplained if !last.alternatives.is_empty() => {
+            Some(experiment(augmented, last, &alike, &floor))
+        }
+        _ => None,
+    };
     let probability = last.named.last().map_or(0.0, |(_, p)| *p);
     let alternatives = ids.iter().skip(1).map(|id| Alternative {
         id: id.clone(),
@@ -71,6 +74,47 @@ pub(super) fn conclude(
         alarms: [alarms(own, &last.fit.at), worsened].concat(),
         audit: audit(train, holdout),
         seconds: 0.0,
+    }
+}
+
+/// What would tell effects apart of which the last that was named is the first, with the scenario `own`.
+fn experiment(
+    own: &Source,
+    last: &Standing<'_>,
+    alike: &[&dyn Effect],
+    floor: &Floor,
+) -> Experiment {
+    let others = last.alternatives.iter().map(|a| &*a.scenario);
+    let members: Vec<Member<'_>> = (alike.iter().zip(std::iter::once(own).chain(others)))
+        .map(|(effect, scenario)| Member {
+            id: effect.id(),
+            scenario,
+        })
+        .collect();
+    let samples = last.trial.data.iter().flat_map(|data| &data.list);
+    let settled = samples.filter(|sample| sample.phase == Phase::Settled);
+    let angles: Vec<[f64; 4]> = settled.map(|sample| sample.angles).collect();
+    let chosen = experiments::choose(&members, experiments::menu(&angles), floor);
+    let discriminates = alike.iter().map(|e| e.id().to_owned()).collect();
+    match chosen.filter(Chosen::decides) {
+        Some(chosen) => Experiment {
+            words: chosen.plan.words,
+            discriminates,
+            predictions: chosen.predictions,
+            apart_floors: Some(chosen.apart),
+        },
+        None => {
+            let words: Vec<&str> = alike.iter().map(|e| e.experiment()).collect();
+            Experiment {
+                words: format!(
+                    "loads on the platform, other orientations and other motor angles would not, by these models; {}",
+                    words.join("; ")
+                ),
+                discriminates,
+                predictions: vec![],
+                apart_floors: None,
+            }
+        }
     }
 }
 

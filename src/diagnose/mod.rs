@@ -7,6 +7,7 @@
 
 mod conclusion;
 pub mod curves;
+pub mod experiments;
 pub mod forward;
 mod locate;
 mod oracle;
@@ -119,7 +120,8 @@ pub fn diagnose(
         last = next;
     }
     let augmented = last.scenario()?;
-    let mut diagnosis = conclusion::conclude(&baseline, &last, &forms, &effects, &holdout);
+    let mut diagnosis =
+        conclusion::conclude(&baseline, (&last, &augmented), &forms, &effects, &holdout);
     diagnosis.seconds = start.elapsed().as_secs_f64();
     told(1.0);
     Ok((diagnosis, augmented))

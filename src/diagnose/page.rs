@@ -53,10 +53,14 @@ pub fn page(d: &Diagnosis, scenario: &str) -> String {
     if let Some(e) = &d.experiment {
         let _ = write!(
             html,
-            "<h2>What would change the verdict</h2><p>To tell {} apart: {}.</p>",
-            e.discriminates.join(", "),
-            escaped(&e.words)
+            "<h2>What would change the verdict</h2><p>{} {}</p><ul>",
+            escaped(&e.sentence()),
+            e.power().unwrap_or_default()
         );
+        for prediction in &e.predictions {
+            let _ = write!(html, "<li>{}</li>", escaped(&prediction.words()));
+        }
+        html += "</ul>";
     }
     html += "<h2>Where</h2>";
     let _ = write!(

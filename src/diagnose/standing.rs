@@ -43,8 +43,20 @@ pub(super) struct Standing<'a> {
     /// Forms that are named, and the probability of each among those that were tried.
     pub(super) named: Vec<(usize, f64)>,
     /// Effects that do as well as the last one that was named.
-    pub(super) alternatives: Vec<usize>,
+    pub(super) alternatives: Vec<Alternative>,
 }
+
+/// An effect that does as well as the last one that was named.
+#[derive(Clone)]
+pub(super) struct Alternative {
+    /// Which effect.
+    pub(super) effect: usize,
+    /// The fitted scenario with it.
+    pub(super) scenario: Arc<Source>,
+}
+
+/// A candidate that is best, its probability, and those of other effects that do as well.
+type Ranked<'c> = (&'c Candidate, f64, Vec<&'c Candidate>);
 
 impl<'a> Standing<'a> {
     /// The scenario without effects, its own numbers fitted from their nominal values and from one place in their ranges.
@@ -137,13 +149,13 @@ impl<'a> Standing<'a> {
         let gain = if much { GAIN[0] } else { GAIN[1] };
         let mut found = self.tolerated(found, forms)?;
         for _ in 0..TRIED {
-            let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
+            let Some((best, probability, alike)) = self.ranked(&found, forms) else {
                 break;
             };
             if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
                 break;
             }
-            if let Some(next) = self.joined(best, (probability, alternatives), forms, holdout)? {
+            if let Some(next) = self.joined(best, (probability, alike), forms, holdout)? {
                 return Ok(Some(next));
             }
             let refused = forms[best.form].effect;
@@ -176,7 +188,7 @@ impl<'a> Standing<'a> {
     fn joined(
         &self,
         best: &Candidate,
-        (probability, alternatives): (f64, Vec<usize>),
+        (probability, alike): (f64, Vec<&Candidate>),
         forms: &'a [Form],
         holdout: &[Samples],
     ) -> Result<Option<Self>, DiagnoseError> {
@@ -195,6 +207,16 @@ impl<'a> Standing<'a> {
             return Ok(None);
         }
         let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
+        let alternative = |c: &Candidate| {
+            let Form { effect, variant } = &forms[c.form];
+            let scenario = self.trial.with(variant).scenario(&c.fit.at);
+            Ok(Alternative {
+                effect: *effect,
+                scenario: Arc::new(scenario.map_err(unfit)?),
+            })
+        };
+        let alternatives = alike.into_iter().map(alternative);
+        let alternatives = alternatives.collect::<Result<_, DiagnoseError>>()?;
         Ok(Some(Self {
             tolerant,
             with_mesh,
@@ -207,11 +229,7 @@ impl<'a> Standing<'a> {
     }
 
     /// The best of fitted forms, its probability, and the effects that do as well.
-    fn ranked<'c>(
-        &self,
-        found: &'c [(f64, Candidate)],
-        forms: &[Form],
-    ) -> Option<(&'c Candidate, f64, Vec<usize>)> {
+    fn ranked<'c>(&self, found: &'c [(f64, Candidate)], forms: &[Form]) -> Option<Ranked<'c>> {
         let measured = self.trial.measured();
         // errors that are shared don't make up for a fit that is plainly worse
         let (_, first) = found.first()?;
@@ -235,7 +253,7 @@ impl<'a> Standing<'a> {
             let same = cost - best_cost < ODDS || *left < (1.0 + ALIKE) * best_left;
             // those that can't be told apart are as likely
             let weight = if same {
-                alike.push(effect);
+                alike.push(*candidate);
                 1.0
             } else {
                 (-(cost - best_cost) / 2.0).exp()

@@ -148,11 +148,13 @@ fn show(d: &Diagnosis) -> String {
             &format!("from where on effects would have been noticed, to first order:\n  {all}\n");
     }
     if let Some(e) = &d.experiment {
-        text += &format!(
-            "to tell {} apart: {}\n",
-            e.discriminates.join(", "),
-            e.words
-        );
+        text += &format!("{}\n", e.sentence());
+        for prediction in &e.predictions {
+            text += &format!("  {}\n", prediction.words());
+        }
+        text += &e
+            .power()
+            .map_or_else(String::new, |power| format!("  {power}\n"));
     }
     text += &format!("\nwhere: {}\n", d.location.state);
     for c in d.location.channels.iter().take(3) {
