@@ -1,6 +1,6 @@
 //! From fitted models to what a diagnosis says.
 
-use super::experiments::{self, Chosen, Member};
+use super::experiments::{self, Member};
 use super::forward::NUMERICS;
 use super::locate;
 use super::samples::{KINDS, Phase, Sample, Samples};
@@ -10,7 +10,6 @@ use super::verdict::{
     Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
 };
 use super::{LEFT, MOST, SOUND};
-use crate::config::Source;
 use crate::identify::{Effect, Hooked, Parameter, Quantity};
 
 /// Share of the mismatch beyond noise that the named effects must explain.
@@ -18,10 +17,10 @@ const EXPLAINED: f64 = 0.6;
 /// Deviations from its prior beyond which a calibrated number is told.
 const FAR: f64 = 2.5;
 
-/// What a diagnosis says that began at `baseline` and ended at `last`, whose scenario is `augmented`.
+/// What a diagnosis says that began at `baseline` and ended at `last`.
 pub(super) fn conclude(
     baseline: &Standing<'_>,
-    (last, augmented): (&Standing<'_>, &Source),
+    last: &Standing<'_>,
     forms: &[Form],
     effects: &[Box<dyn Effect>],
     holdout: &[Samples],
@@ -45,7 +44,7 @@ pub(super) fn conclude(
     let floor = floor(train);
     let experiment = match kind {
         Kind::Class | Kind::Several | Kind::Unexplained if !last.alternatives.is_empty() => {
-            Some(experiment(augmented, last, &alike, &floor))
+            Some(experiment(last, &alike, &floor))
         }
         _ => None,
     };
@@ -73,41 +72,37 @@ pub(super) fn conclude(
         },
         alarms: [alarms(own, &last.fit.at), worsened].concat(),
         audit: audit(train, holdout),
+        traces: last.scores.traces(&baseline.scores, [train, holdout]),
         seconds: 0.0,
     }
 }
 
-/// What would tell effects apart of which the last that was named is the first, with the scenario `own`.
-fn experiment(
-    own: &Source,
-    last: &Standing<'_>,
-    alike: &[&dyn Effect],
-    floor: &Floor,
-) -> Experiment {
-    let others = last.alternatives.iter().map(|a| &*a.scenario);
-    let members: Vec<Member<'_>> = (alike.iter().zip(std::iter::once(own).chain(others)))
-        .map(|(effect, scenario)| Member {
-            id: effect.id(),
-            scenario,
-        })
-        .collect();
+/// What would tell effects apart of which the last that was named is the first.
+fn experiment(last: &Standing<'_>, alike: &[&dyn Effect], floor: &Floor) -> Experiment {
     let samples = last.trial.data.iter().flat_map(|data| &data.list);
     let settled = samples.filter(|sample| sample.phase == Phase::Settled);
     let angles: Vec<[f64; 4]> = settled.map(|sample| sample.angles).collect();
-    let chosen = experiments::choose(&members, experiments::menu(&angles), floor);
+    let named = Member::new(alike[0].id(), &last.trial, &last.fit.at);
+    let others = (alike[1..].iter().zip(&last.alternatives))
+        .map(|(effect, a)| Member::new(effect.id(), &a.model.0, &a.model.1));
+    let members: Result<Vec<_>, _> = std::iter::once(named).chain(others).collect();
+    let chosen =
+        (members.ok()).and_then(|m| experiments::choose(&m, experiments::menu(&angles), floor));
     let discriminates = alike.iter().map(|e| e.id().to_owned()).collect();
-    match chosen.filter(Chosen::decides) {
-        Some(chosen) => Experiment {
+    match chosen {
+        Some(chosen) if chosen.decides() => Experiment {
             words: chosen.plan.words,
             discriminates,
             predictions: chosen.predictions,
             apart_floors: Some(chosen.apart),
         },
-        None => {
+        best => {
             let words: Vec<&str> = alike.iter().map(|e| e.experiment()).collect();
+            let apart = best.map_or(0.0, |best| best.apart);
             Experiment {
                 words: format!(
-                    "loads on the platform, other orientations and other motor angles would not, by these models; {}",
+                    "loads on the platform, other orientations and other motor angles would set these models no more than \
+                     {apart:.1} floors apart; {}",
                     words.join("; ")
                 ),
                 discriminates,
@@ -208,8 +203,7 @@ fn hidden(baseline: &Standing<'_>, last: &Standing<'_>) -> Option<Hidden> {
     let (mark, seen) = (beyond(bare.ok()?.chi2()), beyond(baseline.fit.chi2()));
     let moved = |j: &usize| {
         let p = &own[*j];
-        let size = p.prior.map_or(0.1 * p.width(), |(_, deviation)| deviation);
-        (baseline.fit.at[*j] - last.fit.at[*j]).abs() / size
+        (baseline.fit.at[*j] - last.fit.at[*j]).abs() / p.deviation()
     };
     let j = (0..own.len()).max_by(|a, b| moved(a).total_cmp(&moved(b)))?;
     Some(Hidden {

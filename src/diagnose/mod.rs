@@ -12,6 +12,8 @@ pub mod forward;
 mod locate;
 mod oracle;
 pub mod page;
+mod pictures;
+mod same_robot;
 pub mod samples;
 mod scores;
 pub mod search;
@@ -45,8 +47,6 @@ const ROUNDS: usize = 4;
 const FAR_OFF: f64 = 500.0;
 /// How often it is calibrated anew then, to find out.
 const WEIGHED: usize = 2;
-/// Mean platform error [mm] of the calibrated scenario beyond which a recording is taken for that of another robot.
-const OTHER_ROBOT: f64 = 40.0;
 
 /// What is diagnosed and how.
 pub struct Request<'a> {
@@ -96,9 +96,12 @@ pub fn diagnose(
     let baseline = loop {
         let empty = Trial::new(request.source, &own, &train);
         let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
-        same_robot(&baseline)?;
+        same_robot::after_calibration(&baseline.scores)?;
         if weighed == WEIGHED || weighed == 0 && baseline.mean_square() < FAR_OFF {
             break baseline;
+        }
+        if weighed == 0 {
+            same_robot::motor_order(request.source, &train[0])?;
         }
         weighed += 1;
         // so that a kind of channel that is modelled badly doesn't decide about all others
@@ -120,24 +123,10 @@ pub fn diagnose(
         last = next;
     }
     let augmented = last.scenario()?;
-    let mut diagnosis =
-        conclusion::conclude(&baseline, (&last, &augmented), &forms, &effects, &holdout);
+    let mut diagnosis = conclusion::conclude(&baseline, &last, &forms, &effects, &holdout);
     diagnosis.seconds = start.elapsed().as_secs_f64();
     told(1.0);
     Ok((diagnosis, augmented))
-}
-
-/// Refuses a calibrated scenario that is of another robot than the recordings.
-fn same_robot(baseline: &Standing<'_>) -> Result<(), DiagnoseError> {
-    let worst = baseline.scores.worst_mm();
-    if worst <= OTHER_ROBOT {
-        return Ok(());
-    }
-    Err(DiagnoseError::Unfit(format!(
-        "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, its motors are in another \
-         order, or it has other units (positions are in m, motors in ticks of which 4096 are a turn); give the scenario \
-         of the robot that was recorded"
-    )))
 }
 
 /// Something that scenario and recordings can't do together.
@@ -154,6 +143,7 @@ fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseE
             request.holdout.len()
         )));
     }
+    same_robot::given_once(&[request.train, request.holdout].concat())?;
     let read = |folders: &[PathBuf]| -> Result<Vec<Samples>, DiagnoseError> {
         folders
             .iter()
@@ -164,14 +154,9 @@ fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseE
     for samples in train.iter_mut().chain(&mut holdout) {
         // a scenario without steady states is told when it is calibrated
         if let Ok(apart) = forward::differences(request.source, samples) {
+            same_robot::before_calibration(&apart, samples)?;
             samples.leave_out_flips(&apart);
         }
-    }
-    if let Some(samples) = train.iter().find(|s| s.travel.iter().all(|t| *t < 0.05)) {
-        return Err(DiagnoseError::Unfit(format!(
-            "the motors of recording `{}` never turn, so it shows nothing of the robot; train on one in which they do",
-            samples.name
-        )));
     }
     Ok((train, holdout))
 }

@@ -43,16 +43,16 @@ pub(super) struct Standing<'a> {
     /// Forms that are named, and the probability of each among those that were tried.
     pub(super) named: Vec<(usize, f64)>,
     /// Effects that do as well as the last one that was named.
-    pub(super) alternatives: Vec<Alternative>,
+    pub(super) alternatives: Vec<Alternative<'a>>,
 }
 
 /// An effect that does as well as the last one that was named.
 #[derive(Clone)]
-pub(super) struct Alternative {
+pub(super) struct Alternative<'a> {
     /// Which effect.
     pub(super) effect: usize,
-    /// The fitted scenario with it.
-    pub(super) scenario: Arc<Source>,
+    /// The model with it, and the values that fit best.
+    pub(super) model: (Trial<'a>, Vec<f64>),
 }
 
 /// A candidate that is best, its probability, and those of other effects that do as well.
@@ -209,14 +209,12 @@ impl<'a> Standing<'a> {
         let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
         let alternative = |c: &Candidate| {
             let Form { effect, variant } = &forms[c.form];
-            let scenario = self.trial.with(variant).scenario(&c.fit.at);
-            Ok(Alternative {
+            Alternative {
                 effect: *effect,
-                scenario: Arc::new(scenario.map_err(unfit)?),
-            })
+                model: (self.trial.with(variant), c.fit.at.clone()),
+            }
         };
-        let alternatives = alike.into_iter().map(alternative);
-        let alternatives = alternatives.collect::<Result<_, DiagnoseError>>()?;
+        let alternatives = alike.into_iter().map(alternative).collect();
         Ok(Some(Self {
             tolerant,
             with_mesh,

@@ -60,6 +60,8 @@ pub struct Diagnosis {
     pub alarms: Vec<String>,
     /// What is odd about the recordings.
     pub audit: Vec<String>,
+    /// The platform's error over time, recording by recording.
+    pub traces: Vec<Trace>,
     /// Time it took [s].
     pub seconds: f64,
 }
@@ -251,6 +253,23 @@ pub struct Interval {
     pub recording: String,
     /// Begin and end [s].
     pub seconds: [f64; 2],
+}
+
+/// How far the simulated platform is from the recorded one, sample by sample.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Trace {
+    /// The recording.
+    pub recording: String,
+    /// `train` or `holdout`.
+    pub role: String,
+    /// Times [s].
+    pub time: Vec<f64>,
+    /// How far the rods are wound by then, the mean of the four [degrees].
+    pub winding_deg: Vec<f64>,
+    /// Distance of the calibrated scenario's platform [mm].
+    pub before_mm: Vec<f64>,
+    /// Distance with the named effects [mm].
+    pub after_mm: Vec<f64>,
 }
 
 /// What can't be told from noise.

@@ -33,7 +33,7 @@ pub enum Setup {
 const LOAD: f64 = 0.98;
 /// Motors' speeds [rad/s].
 const SPEED: f64 = 1.5;
-const QUICK: f64 = 5.0;
+const QUICK: f64 = 3.0;
 /// Time that the robot is given to come to rest, and a long time [s].
 const REST: f64 = 2.0;
 const LONG: f64 = 60.0;
