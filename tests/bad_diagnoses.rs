@@ -240,7 +240,7 @@ fn scenarios_that_can_not_be_calibrated_or_are_of_another_robot_are_told() {
         folder.path(),
         &three,
         &given,
-        &["no marker `platform`", "add one under `markers`"],
+        &["no marker `ring`", "add one under `markers`"],
     );
     let six = [
         "--set",

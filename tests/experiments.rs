@@ -38,7 +38,9 @@ fn form(id: &str, name: &str, robot: &Robot) -> Variant {
 
 #[test]
 fn gravity_and_a_payload_are_told_apart_by_the_experiment_that_is_chosen() {
-    let source = shipped(&[]);
+    // rods that weigh more than the platform does
+    let heavy = "rods[0].density=4000".to_owned();
+    let source = shipped(std::slice::from_ref(&heavy));
     let robot = Robot::of(&source).unwrap_or_else(|e| panic!("{e}"));
     let own = Parameter::declared(&source).unwrap_or_else(|e| panic!("{e}"));
     let forms = [
@@ -47,6 +49,7 @@ fn gravity_and_a_payload_are_told_apart_by_the_experiment_that_is_chosen() {
     ];
     // other rigidities than the scenario states, and gravity
     let truth = shipped(&[
+        heavy,
         "rods[0].material.axial=160".into(),
         "rods[0].material.bending=0.019".into(),
         "forcing=[(apply: Gravity(g: (0, 0, 9.81)))]".into(),
@@ -60,7 +63,8 @@ fn gravity_and_a_payload_are_told_apart_by_the_experiment_that_is_chosen() {
         let start = start.unwrap_or_else(|e| panic!("{e}"));
         let all = 0..start.at.len();
         let fit = trial.fit(start, all, 12);
-        Member::new(id, &trial, &fit.at).unwrap_or_else(|e| panic!("{e}"))
+        Member::new(id, &trial, &fit.at, Some(&trial.covariance(&fit)))
+            .unwrap_or_else(|e| panic!("{e}"))
     };
     let members = [fitted("gravity", &forms[0]), fitted("payload", &forms[1])];
     let settled = data[0].list.iter().filter(|s| s.phase == Phase::Settled);

@@ -82,9 +82,10 @@ fn experiment(last: &Standing<'_>, alike: &[&dyn Effect], floor: &Floor) -> Expe
     let samples = last.trial.data.iter().flat_map(|data| &data.list);
     let settled = samples.filter(|sample| sample.phase == Phase::Settled);
     let angles: Vec<[f64; 4]> = settled.map(|sample| sample.angles).collect();
-    let named = Member::new(alike[0].id(), &last.trial, &last.fit.at);
+    let open = last.trial.covariance(&last.tolerant) * last.mean_square().max(1.0);
+    let named = Member::new(alike[0].id(), &last.trial, &last.fit.at, Some(&open));
     let others = (alike[1..].iter().zip(&last.alternatives))
-        .map(|(effect, a)| Member::new(effect.id(), &a.model.0, &a.model.1));
+        .map(|(effect, a)| Member::new(effect.id(), &a.model.0, &a.model.1, None));
     let members: Result<Vec<_>, _> = std::iter::once(named).chain(others).collect();
     let chosen =
         (members.ok()).and_then(|m| experiments::choose(&m, experiments::menu(&angles), floor));

@@ -154,7 +154,7 @@ fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseE
     for samples in train.iter_mut().chain(&mut holdout) {
         // a scenario without steady states is told when it is calibrated
         if let Ok(apart) = forward::differences(request.source, samples) {
-            same_robot::before_calibration(&apart, samples)?;
+            same_robot::before_calibration(request.source, &apart, samples)?;
             samples.leave_out_flips(&apart);
         }
     }

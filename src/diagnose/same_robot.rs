@@ -43,7 +43,11 @@ pub(super) fn given_once(folders: &[PathBuf]) -> Result<(), DiagnoseError> {
 
 /// Refuses a recording whose platform is elsewhere or moves otherwise by far than the scenario's before anything is
 /// calibrated; `apart` is simulated less recorded.
-pub(super) fn before_calibration(apart: &[f64], samples: &Samples) -> Result<(), DiagnoseError> {
+pub(super) fn before_calibration(
+    source: &Source,
+    apart: &[f64],
+    samples: &Samples,
+) -> Result<(), DiagnoseError> {
     let recorded: Vec<Vector3<f64>> = (samples.list.iter())
         .map(|sample| sample.poses[0].translation.vector)
         .collect();
@@ -72,6 +76,7 @@ pub(super) fn before_calibration(apart: &[f64], samples: &Samples) -> Result<(),
     }
     let (moved, expected) = (spread(&recorded, &height), spread(&simulated, &wanted));
     if moved > (SIZE * expected).max(LITTLE) || expected > (SIZE * moved).max(LITTLE) {
+        motor_order(source, samples)?;
         return Err(DiagnoseError::Unfit(format!(
             "recording `{}`: its platform moves by {:.1} mm (root mean square), and the scenario's by {:.1} mm under the \
              same motor positions: they are in ticks, of which 4096 are a turn; convert them, or give the scenario of the \

@@ -1,9 +1,9 @@
 //! Which experiment would tell models apart that the recordings can't, and what each model predicts for it.
 //!
 //! Every model predicts how far the platform's pose moves in each experiment of a [`menu`]. The experiment is the better,
-//! the further apart the two models are that are closest, in floors, beyond what the scenario's own numbers could make up
-//! for: differences d count as d (1 + G G')^-1 d', where G is what the prediction of the first model changes by if those
-//! numbers do by a deviation of what is known of them.
+//! the further apart the two models are that are closest, in floors, beyond what the fit leaves open: differences d count as
+//! d (1 + G C G')^-1 d', where C is the covariance of the first model's fitted numbers and G what its prediction changes by
+//! with them.
 
 mod menu;
 mod predict;
@@ -12,12 +12,14 @@ use super::trial::Trial;
 use super::verdict::{Floor, Prediction};
 use crate::config::Source;
 pub use menu::{Plan, Setup, menu};
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector6};
 pub use predict::{Shift, predict};
 use rayon::prelude::*;
 
 /// Floors apart from which models are told apart.
 const TOLD: f64 = 3.0;
+/// Error of the time at which a robot that moves is seen [s].
+const CLOCK: f64 = 0.014;
 
 /// A model among which an experiment decides.
 pub struct Member<'a> {
@@ -25,25 +27,37 @@ pub struct Member<'a> {
     pub id: &'a str,
     /// The fitted scenario.
     pub scenario: Source,
-    /// The same with each of the scenario's own numbers a deviation larger.
-    moved: Vec<Source>,
+    /// The same with the fitted numbers a deviation away, in each direction in which they are independent of each other.
+    around: Vec<Source>,
 }
 
 impl<'a> Member<'a> {
-    /// A model at the values that fit best.
+    /// A model at the values that fit best, with their covariance if that is to count.
     ///
     /// # Errors
     /// In words, if the scenario has no place for them.
-    pub fn new(id: &'a str, trial: &Trial<'_>, at: &[f64]) -> Result<Self, String> {
-        let moved = trial.own.iter().enumerate().map(|(j, own)| {
-            let mut there = at.to_vec();
-            there[j] += own.deviation();
-            trial.scenario(&there)
-        });
+    pub fn new(
+        id: &'a str,
+        trial: &Trial<'_>,
+        at: &[f64],
+        covariance: Option<&DMatrix<f64>>,
+    ) -> Result<Self, String> {
+        let mut around = Vec::new();
+        if let Some(covariance) = covariance {
+            let axes = covariance.clone().symmetric_eigen();
+            for (axis, square) in axes.eigenvectors.column_iter().zip(&axes.eigenvalues) {
+                let away = |(j, value): (usize, &f64)| {
+                    let (least, most) = trial.range(j);
+                    (value + axis[j] * square.max(0.0).sqrt()).clamp(least, most)
+                };
+                let there: Vec<f64> = at.iter().enumerate().map(away).collect();
+                around.push(trial.scenario(&there)?);
+            }
+        }
         Ok(Self {
             id,
             scenario: trial.scenario(at)?,
-            moved: moved.collect::<Result<_, _>>()?,
+            around,
         })
     }
 }
@@ -80,7 +94,7 @@ pub fn choose(members: &[Member<'_>], plans: Vec<Plan>, floor: &Floor) -> Option
     foreseen.sort_by(|a, b| b.0.total_cmp(&a.0));
     let mut best: Option<Chosen> = None;
     for (most, plan, shifts) in foreseen {
-        // own numbers make differences smaller only
+        // doubt makes differences smaller only
         if best.as_ref().is_some_and(|best| best.apart >= most) {
             break;
         }
@@ -109,14 +123,22 @@ fn white(shift: &Shift, floor: &Floor) -> Vector6<f64> {
     Vector6::from_iterator(position.iter().chain(&rotation).copied())
 }
 
-/// Covariance of a member's prediction by what is known of its scenario's own numbers, beside a unit one; none if it has no
-/// prediction with one of them.
+/// Covariance of a member's prediction by what its fit leaves open and by clocks, beside a unit one; none if there is no
+/// prediction around it.
 fn doubt(member: &Member<'_>, plan: &Plan, shift: &Shift, floor: &Floor) -> Option<Matrix6<f64>> {
-    let moved = member.moved.par_iter().map(|moved| predict(moved, plan));
-    let moved = moved.collect::<Result<Vec<_>, _>>().ok()?;
+    let late = Plan {
+        at: plan.at + CLOCK,
+        ..plan.clone()
+    };
+    let around = member.around.iter().map(|source| (source, plan));
+    let around: Vec<_> = around.chain([(&member.scenario, &late)]).collect();
+    let around = around
+        .par_iter()
+        .map(|(source, plan)| predict(source, plan));
+    let around = around.collect::<Result<Vec<_>, _>>().ok()?;
     let here = white(shift, floor);
-    let change = |moved: &Shift| white(moved, floor) - here;
-    let sum = moved.iter().map(change).map(|g| g * g.transpose());
+    let change = around.iter().map(|moved| white(moved, floor) - here);
+    let sum = change.map(|g| g * g.transpose());
     Some(sum.fold(Matrix6::identity(), |sum, each| sum + each))
 }
 
