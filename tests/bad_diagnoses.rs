@@ -261,6 +261,9 @@ fn scenarios_that_can_not_be_calibrated_or_are_of_another_robot_are_told() {
         folder.path(),
         &robot(),
         &given,
-        &["`a`", "give the scenario of the robot that was recorded"],
+        &[
+            "on recording `",
+            "give the scenario of the robot that was recorded",
+        ],
     );
 }

@@ -10,7 +10,7 @@ const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;mar
     text-align:right;border-bottom:1px solid #ddd;vertical-align:top}td:first-child,th:first-child,.left{text-align:left}\
     .bar{display:inline-block;height:.8rem;vertical-align:middle}.before{background:#d55e00}.after{background:#0072b2}\
     .part td{font-weight:bold;background:#f4f4f4}code,pre{background:#f4f4f4;padding:.1rem .3rem}\
-    pre{padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere}svg{max-width:100%;height:auto}.note{color:#555}";
+    pre{padding:.6rem;white-space:pre-wrap;overflow-wrap:anywhere}svg{max-width:100%;height:auto}.interval{white-space:nowrap}";
 
 /// The page; `scenario` is the file that was diagnosed, `commands` are those that make the page again and use its result.
 #[must_use]
@@ -174,7 +174,7 @@ fn location(d: &Diagnosis) -> String {
     section(
         "Where",
         &format!(
-            "<p>{}.</p>{}{}{channels}{}",
+            "<p>Over time and over states: {}. Pictures hold the samples at rest and on the way.</p>{}{}{channels}{}",
             escaped(&d.location.state),
             pictures::over_time(d),
             pictures::over_winding(d),
@@ -279,7 +279,7 @@ fn list<'a>(items: impl Iterator<Item = &'a str>) -> String {
 
 fn value(p: &Estimated) -> String {
     format!(
-        "<td>{:.4}</td><td>{:.4} .. {:.4}</td>",
+        "<td>{:.4}</td><td class=\"interval\">{:.4} .. {:.4}</td>",
         p.value, p.ci95[0], p.ci95[1]
     )
 }
