@@ -16,7 +16,7 @@ pub use mismatch::{BodyMismatch, Comparison, Worst};
 pub(crate) use observed::TABLE;
 pub use observed::{Observed, SampleKind, motor_inputs, published};
 pub use simulated::{Mode, Simulated};
-pub(crate) use simulated::{markers, pose};
+pub(crate) use simulated::{markers, pose, seen};
 
 use crate::config::{Problems, Source};
 use crate::engine::RunError;

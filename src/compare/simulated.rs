@@ -125,12 +125,14 @@ pub(crate) fn pose(model: &Model, marker: &Marker, rest: Option<&Pose>) -> Pose 
     // rows of a frame are directors, so its transpose rotates the world's axes onto them
     let rotation = Rotation3::from_matrix_unchecked(frame.transpose());
     let rotation = UnitQuaternion::from_rotation_matrix(&rotation);
-    let Capture { turn, shift } = &model.capture;
-    let vector = |v: &Option<Vec3>| v.map_or(Vector3::zeros(), |v| Vector3::from(*v));
-    let turn = UnitQuaternion::from_scaled_axis(vector(turn));
-    let point = turn * point + vector(shift);
     let from = rest.map_or(UnitQuaternion::identity(), |rest| rest.rotation);
-    Pose::from_parts(point.into(), turn * rotation * from.inverse())
+    seen(&model.capture) * Pose::from_parts(point.into(), rotation * from.inverse())
+}
+
+/// How what is seen lies against what is there.
+pub(crate) fn seen(Capture { turn, shift }: &Capture) -> Pose {
+    let vector = |v: &Option<Vec3>| v.map_or(Vector3::zeros(), |v| Vector3::from(*v));
+    Pose::new(vector(shift), vector(turn))
 }
 
 /// Steps the model to `time`.

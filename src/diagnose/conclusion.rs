@@ -1,5 +1,6 @@
 //! From fitted models to what a diagnosis says.
 
+use super::experiments::{self, Member};
 use super::forward::NUMERICS;
 use super::locate;
 use super::samples::{KINDS, Phase, Sample, Samples};
@@ -35,17 +36,18 @@ pub(super) fn conclude(
     let kind = kind(baseline, last, (explained, !worsened.is_empty()), hook);
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
-    let ids: Vec<String> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
-        .chain(last.alternatives.iter().map(|e| &effects[*e]))
-        .map(|e| e.id().to_owned())
+    let alike: Vec<&dyn Effect> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
+        .chain(last.alternatives.iter().map(|a| &effects[a.effect]))
+        .map(|e| &**e)
         .collect();
-    let ambiguous = !last.alternatives.is_empty() && [Kind::Class, Kind::Several].contains(&kind);
-    let experiment = last.named.last().filter(|_| ambiguous);
-    let experiment = experiment.map(|(form, _)| Experiment {
-        words: effect(*form).experiment().to_owned(),
-        discriminates: ids.clone(),
-    });
+    let ids: Vec<String> = alike.iter().map(|e| e.id().to_owned()).collect();
     let floor = floor(train);
+    let experiment = match kind {
+        Kind::Class | Kind::Several | Kind::Unexplained if !last.alternatives.is_empty() => {
+            Some(experiment(last, &alike, &floor))
+        }
+        _ => None,
+    };
     let probability = last.named.last().map_or(0.0, |(_, p)| *p);
     let alternatives = ids.iter().skip(1).map(|id| Alternative {
         id: id.clone(),
@@ -70,7 +72,45 @@ pub(super) fn conclude(
         },
         alarms: [alarms(own, &last.fit.at), worsened].concat(),
         audit: audit(train, holdout),
+        traces: last.scores.traces(&baseline.scores, [train, holdout]),
         seconds: 0.0,
+    }
+}
+
+/// What would tell effects apart of which the last that was named is the first.
+fn experiment(last: &Standing<'_>, alike: &[&dyn Effect], floor: &Floor) -> Experiment {
+    let samples = last.trial.data.iter().flat_map(|data| &data.list);
+    let settled = samples.filter(|sample| sample.phase == Phase::Settled);
+    let angles: Vec<[f64; 4]> = settled.map(|sample| sample.angles).collect();
+    let open = last.trial.covariance(&last.tolerant) * last.mean_square().max(1.0);
+    let named = Member::new(alike[0].id(), &last.trial, &last.fit.at, Some(&open));
+    let others = (alike[1..].iter().zip(&last.alternatives))
+        .map(|(effect, a)| Member::new(effect.id(), &a.model.0, &a.model.1, None));
+    let members: Result<Vec<_>, _> = std::iter::once(named).chain(others).collect();
+    let chosen =
+        (members.ok()).and_then(|m| experiments::choose(&m, experiments::menu(&angles), floor));
+    let discriminates = alike.iter().map(|e| e.id().to_owned()).collect();
+    match chosen {
+        Some(chosen) if chosen.decides() => Experiment {
+            words: chosen.plan.words,
+            discriminates,
+            predictions: chosen.predictions,
+            apart_floors: Some(chosen.apart),
+        },
+        best => {
+            let words: Vec<&str> = alike.iter().map(|e| e.experiment()).collect();
+            let apart = best.map_or(0.0, |best| best.apart);
+            Experiment {
+                words: format!(
+                    "loads on the platform, other orientations and other motor angles would set these models no more than \
+                     {apart:.1} floors apart; {}",
+                    words.join("; ")
+                ),
+                discriminates,
+                predictions: vec![],
+                apart_floors: None,
+            }
+        }
     }
 }
 
@@ -164,8 +204,7 @@ fn hidden(baseline: &Standing<'_>, last: &Standing<'_>) -> Option<Hidden> {
     let (mark, seen) = (beyond(bare.ok()?.chi2()), beyond(baseline.fit.chi2()));
     let moved = |j: &usize| {
         let p = &own[*j];
-        let size = p.prior.map_or(0.1 * p.width(), |(_, deviation)| deviation);
-        (baseline.fit.at[*j] - last.fit.at[*j]).abs() / size
+        (baseline.fit.at[*j] - last.fit.at[*j]).abs() / p.deviation()
     };
     let j = (0..own.len()).max_by(|a, b| moved(a).total_cmp(&moved(b)))?;
     Some(Hidden {

@@ -7,10 +7,13 @@
 
 mod conclusion;
 pub mod curves;
+pub mod experiments;
 pub mod forward;
 mod locate;
 mod oracle;
 pub mod page;
+mod pictures;
+mod same_robot;
 pub mod samples;
 mod scores;
 pub mod search;
@@ -44,8 +47,6 @@ const ROUNDS: usize = 4;
 const FAR_OFF: f64 = 500.0;
 /// Samples of a recording that are enough then, since what is modelled badly shows in neighbours alike.
 const ENOUGH: usize = 70;
-/// Mean platform error [mm] of the calibrated scenario beyond which a recording is taken for that of another robot.
-const OTHER_ROBOT: f64 = 40.0;
 
 /// What is diagnosed and how.
 pub struct Request<'a> {
@@ -95,10 +96,11 @@ pub fn diagnose(
     let baseline = loop {
         let empty = Trial::new(request.source, &own, &train);
         let baseline = Standing::calibrated(empty, &holdout, request.seed)?;
-        same_robot(&baseline)?;
+        same_robot::after_calibration(&baseline.scores)?;
         if weighed || baseline.mean_square() < FAR_OFF {
             break baseline;
         }
+        same_robot::motor_order(request.source, &train[0])?;
         // so that a kind of channel that is modelled badly doesn't decide about all others; what it counts changes the fit
         let mut off = standing::off(&baseline.trial, &baseline.fit);
         for samples in train.iter_mut().chain(&mut holdout) {
@@ -131,19 +133,6 @@ pub fn diagnose(
     Ok((diagnosis, augmented))
 }
 
-/// Refuses a calibrated scenario that is of another robot than the recordings.
-fn same_robot(baseline: &Standing<'_>) -> Result<(), DiagnoseError> {
-    let worst = baseline.scores.worst_mm();
-    if worst <= OTHER_ROBOT {
-        return Ok(());
-    }
-    Err(DiagnoseError::Unfit(format!(
-        "the calibrated scenario is {worst:.0} mm off on a recording: it is of another robot, its motors are in another \
-         order, or it has other units (positions are in m, motors in ticks of which 4096 are a turn); give the scenario \
-         of the robot that was recorded"
-    )))
-}
-
 /// Something that scenario and recordings can't do together.
 fn unfit(e: String) -> DiagnoseError {
     DiagnoseError::Unfit(format!("the scenario can't follow these recordings: {e}"))
@@ -158,6 +147,7 @@ fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseE
             request.holdout.len()
         )));
     }
+    same_robot::given_once(&[request.train, request.holdout].concat())?;
     let read = |folders: &[PathBuf]| -> Result<Vec<Samples>, DiagnoseError> {
         folders
             .iter()
@@ -168,14 +158,9 @@ fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseE
     for samples in train.iter_mut().chain(&mut holdout) {
         // a scenario without steady states is told when it is calibrated
         if let Ok(apart) = forward::differences(request.source, samples) {
+            same_robot::before_calibration(request.source, &apart, samples)?;
             samples.leave_out_flips(&apart);
         }
-    }
-    if let Some(samples) = train.iter().find(|s| s.travel.iter().all(|t| *t < 0.05)) {
-        return Err(DiagnoseError::Unfit(format!(
-            "the motors of recording `{}` never turn, so it shows nothing of the robot; train on one in which they do",
-            samples.name
-        )));
     }
     Ok((train, holdout))
 }

@@ -29,6 +29,12 @@ const INERTIA: f64 = 0.01;
 
 /// Samples that are taken of a recording at most; slow trajectories show the same again and again.
 const MOST: usize = 200;
+/// Turn of the base beyond which it isn't the base's that is recorded [rad].
+const ASKEW: f64 = 0.5;
+/// Motor angle below which nothing turns [rad].
+const NO_TURN: f64 = 0.05;
+const MOCAP: &str = "mocap_frame_data_history.csv";
+
 /// Deviation of poses from a published table, which doesn't tell it: position [m], rotation [rad].
 const PUBLISHED: (f64, f64) = (1e-4, 1e-3);
 
@@ -87,8 +93,6 @@ pub struct Samples {
     pub rest: f64,
     /// Deviation of a single row at rest: position [m], rotation [rad].
     pub noise: (f64, f64),
-    /// Range of each motor's angle [rad].
-    pub travel: [f64; 4],
     /// How many times wider than noise residuals of each kind are taken to spread.
     pub wider: [f64; KINDS.len()],
     /// Samples that were left out, since motion capture had mistaken markers.
@@ -162,6 +166,14 @@ impl Samples {
     pub fn of(recording: &Recording) -> Result<Self, CompareError> {
         let geometry = RobotGeometry::default();
         let poses = BasePoses::new(recording, &geometry)?;
+        let turned = poses.base_rotation.angle();
+        if turned > ASKEW {
+            return Err(CompareError::Unfit(format!(
+                "recording `{}`, {MOCAP}: the base is turned by {turned:.2} rad, and the robot is taken to stand along the \
+                 vertical axis; quaternions are x, y, z, w, in columns 3 to 6: are they in another order?",
+                recording.name
+            )));
+        }
         let reference = Reference::new(recording, &poses)?;
         let turning = Turning::of(recording)?;
         let Turning { motors, still } = &turning;
@@ -249,10 +261,26 @@ impl Samples {
         mut list: Vec<Sample>,
         (reference, noise): (Reference, (f64, f64)),
     ) -> Result<Self, CompareError> {
+        let travel: [f64; 4] = std::array::from_fn(|i| {
+            let angles = motors.present.iter().map(|a| a[i]);
+            angles.clone().fold(f64::MIN, f64::max) - angles.fold(f64::MAX, f64::min)
+        });
+        let furthest = travel.iter().copied().fold(0.0, f64::max);
+        if furthest < NO_TURN {
+            let ticks = furthest / crate::recordings::RADIANS_PER_TICK;
+            return Err(CompareError::Unfit(format!(
+                "recording `{}`, present_positions_history.csv: the motors turn by no more than {ticks:.1} ticks, of which \
+                 4096 are a turn, so it shows nothing of the robot; are its angles in other units? else take a recording in \
+                 which they turn",
+                recording.name
+            )));
+        }
         if list.iter().filter(|s| s.phase == Phase::Settled).count() < 3 {
             return Err(CompareError::Unfit(format!(
-                "recording `{}` comes to rest fewer than three times; a diagnosis needs set-points that are held",
-                recording.name
+                "recording `{}` comes to rest fewer than three times in its {:.0} s; a diagnosis needs set-points that are \
+                 held (times are in s, motor positions in ticks of which 4096 are a turn)",
+                recording.name,
+                motors.time[motors.time.len() - 1] - motors.time[0]
             )));
         }
         thin(&mut list, MOST);
@@ -268,10 +296,6 @@ impl Samples {
         let passed = (0..still.len()).filter(lively);
         let passed = passed.map(|row| motors.time[row]).collect();
         let inputs = motor_inputs(&motors.time, &series).map_err(CompareError::Unfit)?;
-        let travel = std::array::from_fn(|i| {
-            let angles = motors.present.iter().map(|a| a[i]);
-            angles.clone().fold(f64::MIN, f64::max) - angles.fold(f64::MAX, f64::min)
-        });
         Ok(Self {
             name: recording.name.clone(),
             list,
@@ -280,7 +304,6 @@ impl Samples {
             reference,
             rest: motors.time[0],
             noise,
-            travel,
             wider: [1.0; KINDS.len()],
             flipped: 0,
         })

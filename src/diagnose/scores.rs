@@ -1,10 +1,11 @@
 //! How well a scenario does on recordings, and whether it does worse than another.
 
-use super::forward::{differences, platform_rms, whitened};
+use super::forward::{CHANNELS, differences, platform_rms, whitened};
 use super::samples::Samples;
-use super::verdict::{Estimated, Fitted, Scored};
+use super::verdict::{Estimated, Fitted, Scored, Trace};
 use crate::compare::CompareError;
 use crate::config::Source;
+use nalgebra::Vector3;
 
 /// How far chi2 of a single recording, trained on or held out, may grow when an effect is added: a share of itself, or of
 /// what is gained on all.
@@ -22,6 +23,8 @@ struct Score {
     name: String,
     /// Root mean squares of the platform: position [mm], rotation [mrad].
     rms: (f64, f64),
+    /// Distance of the platform at each sample [mm].
+    apart_mm: Vec<f64>,
     chi2: f64,
 }
 
@@ -38,6 +41,9 @@ impl Scores {
             Ok(Score {
                 name: samples.name.clone(),
                 rms: platform_rms(&apart, samples),
+                apart_mm: (apart.chunks_exact(CHANNELS))
+                    .map(|apart| 1e3 * Vector3::from_column_slice(&apart[..3]).norm())
+                    .collect(),
                 chi2: white.iter().map(|r| r * r).sum(),
             })
         };
@@ -91,9 +97,33 @@ impl Scores {
         }
     }
 
-    /// The largest root mean square of the position errors on a training recording [mm].
-    pub(super) fn worst_mm(&self) -> f64 {
-        self.train.iter().map(|s| s.rms.0).fold(0.0, f64::max)
+    /// The platform's error over time, without and with the effects that are named; `data` are the recordings of both.
+    pub(super) fn traces(&self, before: &Self, data: [&[Samples]; 2]) -> Vec<Trace> {
+        let winding = |[a, b, c, d]: [f64; 4]| ((a - b + c - d) / 4.0).to_degrees();
+        let trace = |role: &str, samples: &Samples, before: &Score, after: &Score| Trace {
+            recording: samples.name.clone(),
+            role: role.to_owned(),
+            time: samples.list.iter().map(|s| s.time).collect(),
+            winding_deg: samples.list.iter().map(|s| winding(s.angles)).collect(),
+            before_mm: before.apart_mm.clone(),
+            after_mm: after.apart_mm.clone(),
+        };
+        let roles = [
+            ("train", data[0], &before.train, &self.train),
+            ("holdout", data[1], &before.holdout, &self.holdout),
+        ];
+        let each = roles.into_iter().flat_map(|(role, data, before, after)| {
+            let pairs = data.iter().zip(before.iter().zip(after));
+            pairs.map(move |(samples, (before, after))| trace(role, samples, before, after))
+        });
+        each.collect()
+    }
+
+    /// The recording with the largest root mean square of position errors, and that [mm].
+    pub(super) fn worst(&self) -> (&str, f64) {
+        let all = self.train.iter().chain(&self.holdout);
+        let worst = all.max_by(|a, b| a.rms.0.total_cmp(&b.rms.0));
+        worst.map_or(("", 0.0), |s| (&s.name, s.rms.0))
     }
 
     /// Root mean square of the position errors on training recordings [mm].

@@ -45,8 +45,20 @@ pub(super) struct Standing<'a> {
     /// Forms that are named, and the probability of each among those that were tried.
     pub(super) named: Vec<(usize, f64)>,
     /// Effects that do as well as the last one that was named.
-    pub(super) alternatives: Vec<usize>,
+    pub(super) alternatives: Vec<Alternative<'a>>,
 }
+
+/// An effect that does as well as the last one that was named.
+#[derive(Clone)]
+pub(super) struct Alternative<'a> {
+    /// Which effect.
+    pub(super) effect: usize,
+    /// The model with it, and the values that fit best.
+    pub(super) model: (Trial<'a>, Vec<f64>),
+}
+
+/// A candidate that is best, its probability, and those of other effects that do as well.
+type Ranked<'c> = (&'c Candidate, f64, Vec<&'c Candidate>);
 
 impl<'a> Standing<'a> {
     /// The scenario without effects, its own numbers fitted from their nominal values and from one place in their ranges.
@@ -125,13 +137,13 @@ impl<'a> Standing<'a> {
         };
         let mut found = self.tolerated(found, forms)?;
         for _ in 0..TRIED {
-            let Some((best, probability, alternatives)) = self.ranked(&found, forms) else {
+            let Some((best, probability, alike)) = self.ranked(&found, forms) else {
                 break;
             };
             if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
                 break;
             }
-            if let Some(next) = self.joined(best, (probability, alternatives), forms, holdout)? {
+            if let Some(next) = self.joined(best, (probability, alike), forms, holdout)? {
                 return Ok(Some(next));
             }
             let refused = forms[best.form].effect;
@@ -164,7 +176,7 @@ impl<'a> Standing<'a> {
     fn joined(
         &self,
         best: &Candidate,
-        (probability, alternatives): (f64, Vec<usize>),
+        (probability, alike): (f64, Vec<&Candidate>),
         forms: &'a [Form],
         holdout: &[Samples],
     ) -> Result<Option<Self>, DiagnoseError> {
@@ -183,6 +195,14 @@ impl<'a> Standing<'a> {
             return Ok(None);
         }
         let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
+        let alternative = |c: &Candidate| {
+            let Form { effect, variant } = &forms[c.form];
+            Alternative {
+                effect: *effect,
+                model: (self.trial.with(variant), c.fit.at.clone()),
+            }
+        };
+        let alternatives = alike.into_iter().map(alternative).collect();
         Ok(Some(Self {
             tolerant,
             with_mesh,
@@ -195,11 +215,7 @@ impl<'a> Standing<'a> {
     }
 
     /// The best of fitted forms, its probability, and the effects that do as well.
-    fn ranked<'c>(
-        &self,
-        found: &'c [(f64, Candidate)],
-        forms: &[Form],
-    ) -> Option<(&'c Candidate, f64, Vec<usize>)> {
+    fn ranked<'c>(&self, found: &'c [(f64, Candidate)], forms: &[Form]) -> Option<Ranked<'c>> {
         let measured = self.trial.measured();
         // errors that are shared don't make up for a fit that is plainly worse
         let (_, first) = found.first()?;
@@ -223,7 +239,7 @@ impl<'a> Standing<'a> {
             let same = cost - best_cost < ODDS || *left < (1.0 + ALIKE) * best_left;
             // those that can't be told apart are as likely
             let weight = if same {
-                alike.push(effect);
+                alike.push(*candidate);
                 1.0
             } else {
                 (-(cost - best_cost) / 2.0).exp()

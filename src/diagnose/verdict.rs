@@ -60,6 +60,8 @@ pub struct Diagnosis {
     pub alarms: Vec<String>,
     /// What is odd about the recordings.
     pub audit: Vec<String>,
+    /// The platform's error over time, recording by recording.
+    pub traces: Vec<Trace>,
     /// Time it took [s].
     pub seconds: f64,
 }
@@ -169,6 +171,55 @@ pub struct Experiment {
     pub words: String,
     /// The effects that it tells apart.
     pub discriminates: Vec<String>,
+    /// What each of them predicts; none if no experiment was found that tells them apart.
+    pub predictions: Vec<Prediction>,
+    /// How many floors the two closest predictions are apart.
+    pub apart_floors: Option<f64>,
+}
+
+/// How far the platform moves in an experiment, by a model; in the base frame.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Prediction {
+    /// Identifier of the model's effect.
+    pub id: String,
+    /// How far its marker moves [mm].
+    pub position_mm: [f64; 3],
+    /// How far it turns, a rotation vector [mrad].
+    pub rotation_mrad: [f64; 3],
+}
+
+impl Experiment {
+    /// What to do, in a sentence.
+    #[must_use]
+    pub fn sentence(&self) -> String {
+        format!(
+            "To tell {} apart: {}.",
+            self.discriminates.join(", "),
+            self.words
+        )
+    }
+
+    /// How far apart the predictions are, in a sentence.
+    #[must_use]
+    pub fn power(&self) -> Option<String> {
+        let apart = self.apart_floors?;
+        Some(format!(
+            "The two closest predictions are {apart:.0} floors apart."
+        ))
+    }
+}
+
+impl Prediction {
+    /// In a few words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let [x, y, z] = self.position_mm;
+        let [a, b, c] = self.rotation_mrad;
+        format!(
+            "with {} the platform moves by ({x:.2}, {y:.2}, {z:.2}) mm and turns by ({a:.1}, {b:.1}, {c:.1}) mrad",
+            self.id
+        )
+    }
 }
 
 /// Where simulation and recordings differ.
@@ -202,6 +253,23 @@ pub struct Interval {
     pub recording: String,
     /// Begin and end [s].
     pub seconds: [f64; 2],
+}
+
+/// How far the simulated platform is from the recorded one, sample by sample.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Trace {
+    /// The recording.
+    pub recording: String,
+    /// `train` or `holdout`.
+    pub role: String,
+    /// Times [s].
+    pub time: Vec<f64>,
+    /// How far the rods are wound by then, the mean of the four [degrees].
+    pub winding_deg: Vec<f64>,
+    /// Distance of the calibrated scenario's platform [mm].
+    pub before_mm: Vec<f64>,
+    /// Distance with the named effects [mm].
+    pub after_mm: Vec<f64>,
 }
 
 /// What can't be told from noise.

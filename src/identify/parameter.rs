@@ -109,6 +109,12 @@ impl Parameter {
     pub fn width(&self) -> f64 {
         self.range.1 - self.range.0
     }
+
+    /// How well it is known beforehand: the prior's standard deviation, or a tenth of the range's width.
+    pub fn deviation(&self) -> f64 {
+        let known = self.prior.map(|(_, deviation)| deviation);
+        known.unwrap_or(0.1 * self.width())
+    }
 }
 
 /// Messages say what is wrong and, after a semicolon, what to do.

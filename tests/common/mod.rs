@@ -1,6 +1,8 @@
 //! What several tests share.
 #![allow(dead_code, reason = "each test uses some of it")]
 
+pub mod made;
+
 use auxetica::config::Source;
 use auxetica::engine::{Model, ReadBody, SteadyOptions, SteadySolver};
 use nalgebra::Vector3;

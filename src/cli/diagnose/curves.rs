@@ -56,11 +56,7 @@ fn show(d: &CurvesDiagnosis) -> String {
         text += &numbers(&effect.parameters);
     }
     if let Some(e) = &d.experiment {
-        text += &format!(
-            "to tell {} apart: {}\n",
-            e.discriminates.join(", "),
-            e.words
-        );
+        text += &format!("{}\n", e.sentence());
     }
     for alarm in &d.alarms {
         text += &format!("note: {alarm}\n");

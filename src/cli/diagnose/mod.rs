@@ -53,6 +53,7 @@ pub(super) struct Options {
 }
 
 pub(super) fn run(options: &Options, quiet: bool) -> Result<(), Failure> {
+    options.check_outputs()?;
     match &options.curves {
         Some(file) => curves::run(options, file, quiet),
         None => by_recordings(options, quiet),
@@ -79,15 +80,47 @@ fn by_recordings(options: &Options, quiet: bool) -> Result<(), Failure> {
         write_whole(path, augmented.text())?;
     }
     if let Some(path) = &options.report {
-        write_whole(
-            path,
-            &crate::diagnose::page::page(&diagnosis, source.name()),
-        )?;
+        let page = crate::diagnose::page::page(&diagnosis, source.name(), &options.commands());
+        write_whole(path, &page)?;
     }
     Ok(())
 }
 
 impl Options {
+    /// Refuses files that can't be written before anything is computed.
+    fn check_outputs(&self) -> Result<(), Failure> {
+        let outputs = [&self.json, &self.report, &self.write_scenario];
+        for path in outputs.into_iter().flatten() {
+            let folder = path.parent().filter(|folder| *folder != Path::new(""));
+            if folder.is_some_and(|folder| !folder.is_dir()) || path.is_dir() {
+                return Err(Failure::Unknown(format!(
+                    "{path:?} can't be written: its folder does not exist, or it is a folder; make the folder, or name \
+                     another file"
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// The command that was given, and one that uses the scenario that it wrote.
+    fn commands(&self) -> Vec<String> {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+".contains(c);
+        let quoted = |word: String| match word.chars().all(plain) {
+            true => word,
+            false => format!("'{}'", word.replace('\'', r"'\''")),
+        };
+        let given = std::env::args_os().skip(1);
+        let given = given.map(|word| quoted(word.to_string_lossy().into_owned()));
+        let given = format!("auxetica {}", given.collect::<Vec<_>>().join(" "));
+        let (scenario, recording) = (self.write_scenario.as_ref(), self.holdout.first());
+        let using = scenario.zip(recording).map(|(scenario, recording)| {
+            let [scenario, recording] =
+                [scenario, recording].map(|path| quoted(path.display().to_string()));
+            format!("auxetica compare {scenario} --recording {recording}")
+        });
+        std::iter::once(given).chain(using).collect()
+    }
+
     fn load(&self) -> Result<Vec<Source>, Failure> {
         let load = |file: &PathBuf| Ok(Source::load(file, &self.set)?);
         self.scenarios.iter().map(load).collect()
@@ -148,11 +181,13 @@ fn show(d: &Diagnosis) -> String {
             &format!("from where on effects would have been noticed, to first order:\n  {all}\n");
     }
     if let Some(e) = &d.experiment {
-        text += &format!(
-            "to tell {} apart: {}\n",
-            e.discriminates.join(", "),
-            e.words
-        );
+        text += &format!("{}\n", e.sentence());
+        for prediction in &e.predictions {
+            text += &format!("  {}\n", prediction.words());
+        }
+        text += &e
+            .power()
+            .map_or_else(String::new, |power| format!("  {power}\n"));
     }
     text += &format!("\nwhere: {}\n", d.location.state);
     for c in d.location.channels.iter().take(3) {

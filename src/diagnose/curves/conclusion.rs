@@ -98,6 +98,8 @@ pub(super) fn conclude(
     let experiment = best.filter(|_| ids.len() > 1).map(|best| Experiment {
         words: effect(best.form).experiment().to_owned(),
         discriminates: ids.clone(),
+        predictions: vec![],
+        apart_floors: None,
     });
     let alternatives = found.iter().zip(&ids).skip(1);
     let diagnosis = CurvesDiagnosis {

@@ -3,7 +3,7 @@
 use crate::cylinder::Cylinder;
 use crate::rod::{Rod, Section};
 use auxetica_config::{Count, Direction, NonNegative, Positive, Profile, Vec3};
-use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
+use nalgebra::{Matrix3, Rotation3, Vector3};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 
@@ -150,6 +150,9 @@ pub struct CylinderSpec {
     /// Direction of the axis.
     #[serde(default = "z")]
     pub axis: Direction,
+    /// Direction of `d1`, made normal to the axis; by default x, turned as z is onto the axis.
+    #[serde(default)]
+    pub normal: Option<Direction>,
     /// Radius \[m\].
     pub radius: Positive,
     /// Thickness along the axis \[m\].
@@ -173,6 +176,15 @@ impl RodGroup {
             vec![&self.name]
         } else {
             self.at.keys().map(String::as_str).collect()
+        }
+    }
+
+    /// Direction that `d1` comes of.
+    pub fn normal(&self) -> Vector3<f64> {
+        match self.normal {
+            Some(normal) => Vector3::from(*normal),
+            None if self.direction[0].abs() < 0.9 => Vector3::x(),
+            None => Vector3::y(),
         }
     }
 
@@ -202,18 +214,12 @@ impl RodGroup {
             }
         }
         let direction = Vector3::from(*self.direction);
-        let wanted = match self.normal {
-            Some(normal) => Vector3::from(*normal),
-            None if direction.x.abs() < 0.9 => Vector3::x(),
-            None => Vector3::y(),
-        };
-        let normal = wanted - direction * wanted.dot(&direction);
-        if normal.norm() < 1e-6 {
-            return Err((
+        let normal = across(&self.normal(), &direction).ok_or_else(|| {
+            (
                 "normal",
                 "the normal lies along the rod; give another".into(),
-            ));
-        }
+            )
+        })?;
         let sections: Vec<_> = (0..n)
             .map(|e| Section {
                 outside: self.radius.at(e),
@@ -230,7 +236,7 @@ impl RodGroup {
             name: self.name.clone(),
             start: Vector3::zeros(),
             direction,
-            normal: normal.normalize(),
+            normal,
             length: *self.length,
             outside_radius: sections.iter().map(|s| s.outside).collect(),
             inside_radius: inside,
@@ -258,7 +264,25 @@ impl RodGroup {
     }
 }
 
+/// The part of a direction that is normal to an axis, of unit length.
+fn across(direction: &Vector3<f64>, axis: &Vector3<f64>) -> Option<Vector3<f64>> {
+    let normal = direction - axis * direction.dot(axis);
+    (normal.norm() >= 1e-6).then(|| normal.normalize())
+}
+
 impl CylinderSpec {
+    /// Direction that `d1` comes of.
+    pub fn normal(&self) -> Vector3<f64> {
+        if let Some(normal) = self.normal {
+            return Vector3::from(*normal);
+        }
+        let axis = Vector3::from(*self.axis);
+        let turn = Rotation3::rotation_between(&Vector3::z(), &axis).unwrap_or_else(|| {
+            Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        });
+        turn * Vector3::x()
+    }
+
     /// The body, or the field that is wrong and why.
     pub fn cylinder(&self) -> Result<Cylinder, (&'static str, String)> {
         let volume = std::f64::consts::PI * self.radius.powi(2) * *self.thickness;
@@ -274,14 +298,18 @@ impl CylinderSpec {
                 return Err(("name", message.into()));
             }
         };
-        let axis = Unit::new_normalize(Vector3::from(*self.axis));
-        let turn = Rotation3::rotation_between(&Vector3::z(), &axis).unwrap_or_else(|| {
-            Rotation3::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
-        });
+        let axis = Vector3::from(*self.axis);
+        let normal = across(&self.normal(), &axis).ok_or_else(|| {
+            (
+                "normal",
+                "the normal lies along the axis; give another".into(),
+            )
+        })?;
+        let directors = [normal, axis.cross(&normal), axis];
         Ok(Cylinder {
             name: self.name.clone(),
             centre: Vector3::from(*self.centre),
-            director: Matrix3::from(turn).transpose(),
+            director: Matrix3::from_rows(&directors.map(|d| d.transpose())),
             mass,
             inertia: Cylinder::solid_inertia(mass, *self.radius, *self.thickness),
         })

@@ -39,6 +39,51 @@ impl Uncertain {
             );
             return Err(("range", message));
         }
-        Ok(nominal)
+        match self.prior.map(|(mean, _)| *mean) {
+            Some(mean) if !(least..=most).contains(&mean) => Err((
+                "prior",
+                format!(
+                    "the prior's mean {mean} is outside the range ({least}, {most}); give both in the unit of the scenario's value"
+                ),
+            )),
+            _ => self.check_unit().map(|()| nominal),
+        }
     }
+
+    /// Numbers of a scenario are in SI units, so a unit that the path contradicts means a wrong range.
+    fn check_unit(&self) -> Result<(), (&'static str, String)> {
+        let plain = |unit: &str| {
+            unit.replace([' ', '^', '*', '\u{b7}'], "")
+                .replace('\u{b2}', "2")
+        };
+        match unit(&self.path) {
+            Some(unit) if !self.unit.is_empty() && plain(unit) != plain(&self.unit) => Err((
+                "unit",
+                format!(
+                    "the unit `{}` contradicts the path: `{}` is in {unit}; mend the unit, and the range if it isn't in {unit}",
+                    self.unit, self.path
+                ),
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The unit of a number of a rod or rigid body, as far as its path says.
+fn unit(path: &str) -> Option<&'static str> {
+    let (list, rest) = path.split_once('[')?;
+    let (_, field) = rest.split_once("].")?;
+    // numbers of profiles and vectors are in the unit of the whole
+    let field = field.split('[').next()?;
+    Some(match (list, field) {
+        ("rods", "length" | "radius" | "wall" | "at" | "caps.start" | "caps.tip")
+        | ("cylinders", "centre" | "radius" | "thickness")
+        | ("markers", "offset") => "m",
+        ("rods" | "cylinders", "density") => "kg/m3",
+        ("cylinders", "mass") => "kg",
+        ("rods", "material.youngs") => "Pa",
+        ("rods", "material.axial") => "N",
+        ("rods", "material.bending" | "material.twist") => "N m2",
+        _ => return None,
+    })
 }
