@@ -67,7 +67,7 @@ fn mode_of(source: &Source) -> Result<Mode, Failure> {
     let scenario: Scenario<'_> = source.parse()?;
     Ok(match scenario.solver {
         Solver::Steady { .. } => Mode::Steady,
-        Solver::Dynamic { .. } => Mode::Dynamic,
+        Solver::Dynamic { .. } | Solver::Implicit { .. } => Mode::Dynamic,
     })
 }
 

@@ -90,6 +90,16 @@ fn at_its_place(error: RunError, source: &Source) -> Failure {
 }
 
 fn describe(summary: &Summary) -> String {
+    if let Some(cost) = summary.implicit {
+        let halved = match cost.halved {
+            0 => String::new(),
+            n => format!(", {n} of them halved"),
+        };
+        return format!(
+            "{} implicit steps of {:.4e} s{halved}; {} Newton iterations, {} tangents",
+            cost.steps, summary.step.dt, cost.iterations, cost.factorisations
+        );
+    }
     if summary.steady.is_empty() {
         let StepSize { dt, limit } = summary.step;
         return format!(
