@@ -3,8 +3,8 @@
 mod common;
 
 use auxetica::config::Source;
-use auxetica::engine::{ImplicitSolver, Model};
 use auxetica::engine::scenario::Solver;
+use auxetica::engine::{ImplicitSolver, Model};
 use std::path::Path;
 
 const STEPS: usize = 50;

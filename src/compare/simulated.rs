@@ -148,7 +148,11 @@ impl Driver {
     }
 
     /// Moves the system to `time` \[s\]. That there is no steady state is no reason to end.
-    fn advance(&mut self, system: &mut System, time: f64) -> Result<Result<(), NotSteady>, RunError> {
+    fn advance(
+        &mut self,
+        system: &mut System,
+        time: f64,
+    ) -> Result<Result<(), NotSteady>, RunError> {
         let start = system.time();
         let steps = |dt: f64| ((time - start) / dt).ceil().max(0.0) as u64;
         match self {

@@ -3,7 +3,7 @@
 use crate::hooks::{CallbackError, Snapshot};
 use crate::implicit::{ImplicitReport, ImplicitSolver, NoStep};
 use crate::scenario::{LARGEST_SHARE, Model, Solver, StepSize, Watcher};
-use crate::steady::{NotSteady, SteadyReport, SteadySolver};
+use crate::steady::{NotSteady, Stability, SteadyReport, SteadySolver};
 use crate::step::BlowUp;
 use crate::system::System;
 use std::ops::ControlFlow;
@@ -67,8 +67,8 @@ pub struct Summary {
     pub step: StepSize,
     /// What implicit steps have cost.
     pub implicit: Option<ImplicitReport>,
-    /// Time \[s\] and cost of each steady state.
-    pub steady: Vec<(f64, SteadyReport)>,
+    /// Time \[s\], cost and stability of each steady state; no stability of a singular one.
+    pub steady: Vec<(f64, SteadyReport, Option<Stability>)>,
     /// Files written by callbacks.
     pub files: Vec<PathBuf>,
 }
@@ -240,7 +240,8 @@ impl Model {
                 return Err(RunError::Interrupted { time });
             }
             let report = solver.advance(&mut self.system, *time)?;
-            summary.steady.push((*time, report));
+            let stability = solver.stability(&mut self.system).ok();
+            summary.steady.push((*time, report, stability));
             reached(self);
             for watcher in &mut self.watchers {
                 watcher.call(&self.system)?;

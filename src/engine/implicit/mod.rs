@@ -24,7 +24,7 @@ use scheme::Scheme;
 pub struct ImplicitOptions {
     /// Share that a step leaves of vibrations much faster than it: 1 keeps all energy, 0 drops them at once.
     pub spectral_radius: f64,
-    /// Last Newton correction that is accepted: rotations \[rad\], and displacements in element lengths.
+    /// Error of a step that Newton's method may leave: rotations \[rad\], and displacements in element lengths.
     pub tolerance: f64,
     /// Newton iterations a step may take before it is halved.
     pub iterations: usize,
@@ -35,9 +35,9 @@ pub struct ImplicitOptions {
 impl Default for ImplicitOptions {
     fn default() -> Self {
         Self {
-            spectral_radius: 0.8,
-            tolerance: 1e-9,
-            iterations: 12,
+            spectral_radius: 0.5,
+            tolerance: 1e-7,
+            iterations: 25,
             smallest: 1e-6,
         }
     }
@@ -58,9 +58,7 @@ pub struct ImplicitReport {
 
 /// No step was found, however short.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "no time step leads on from t = {time:.6} s: {reason}, down to steps of {step:.1e} s"
-)]
+#[error("no time step leads on from t = {time:.6} s: {reason}, down to steps of {step:.1e} s")]
 pub struct NoStep {
     /// Time \[s\] that was reached.
     pub time: f64,
@@ -71,7 +69,7 @@ pub struct NoStep {
 }
 
 /// Factor by which corrections must shrink for the tangent of an earlier state to be kept.
-const REUSE: f64 = 0.25;
+const REUSE: f64 = 0.5;
 /// How much smaller than accepted the first correction of a step must be, since how fast they shrink isn't known yet.
 const UNTRIED: f64 = 20.0;
 /// Corrections below this may grow once: a law's kink may cost that.
@@ -241,8 +239,7 @@ impl ImplicitSolver {
             }
         }
         self.freedom.project(&mut self.change);
-        self.unknowns
-            .displace_all(&mut system.groups, &self.change);
+        self.unknowns.displace_all(&mut system.groups, &self.change);
     }
 
     /// Poses that are in equilibrium with inertia at the end of a step of `h`.
@@ -271,8 +268,7 @@ impl ImplicitSolver {
             if fresh && size > last && size > HARMLESS {
                 break;
             }
-            self.unknowns
-                .displace_all(&mut system.groups, &self.change);
+            self.unknowns.displace_all(&mut system.groups, &self.change);
             // what is left after it, if the next ones shrink as this one has
             let ratio = if iteration == 1 { UNTRIED } else { size / last };
             if size * ratio < self.options.tolerance {
@@ -339,13 +335,7 @@ impl ImplicitSolver {
             joint.apply(groups, &now);
         }
         self.unknowns.read_loads(groups, &mut self.loads);
-        let squared = self.unknowns.scale.powi(2);
-        let bodies = groups.iter().map(|g| &g.bodies);
-        let stations = bodies.flat_map(|b| (0..b.stations()).map(move |k| (b, k)));
-        for ((b, k), inertia) in stations.zip(self.inertia.chunks_exact_mut(PER_STATION)) {
-            inertia[..3].fill(b.mass[k] * squared);
-            inertia[3..].copy_from_slice((b.inertia.get(k) / b.dilatation[k]).as_slice());
-        }
+        self.unknowns.read_inertia(groups, &mut self.inertia);
         let parts = self.inertia.iter().zip(&self.after.truly);
         for (load, (inertia, acceleration)) in self.loads.iter_mut().zip(parts) {
             *load -= inertia * acceleration;

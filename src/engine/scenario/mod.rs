@@ -179,8 +179,8 @@ pub enum Solver {
         /// Share that a step leaves of vibrations much faster than it, 0 to 1.
         #[serde(default)]
         spectral_radius: SpectralRadius,
-        /// Last correction accepted: rotations \[rad\], and displacements in element lengths.
-        #[serde(default = "tolerance")]
+        /// Error of a step that is left by its iterations: rotations \[rad\], and displacements in element lengths.
+        #[serde(default = "step_tolerance")]
         tolerance: Positive,
     },
     /// Static equilibria by Newton's method.
@@ -226,6 +226,10 @@ impl Solver {
     }
 }
 
+fn step_tolerance() -> Positive {
+    Positive::new(ImplicitOptions::default().tolerance).expect("the default is positive")
+}
+
 fn tolerance() -> Positive {
     Positive::new(1e-9).expect("the default is positive")
 }
@@ -243,7 +247,7 @@ impl TryFrom<f64> for SpectralRadius {
             Ok(Self(radius))
         } else {
             Err(format!(
-                "expected a spectral radius from 0 to 1, found {radius}; 0.8 suits most runs, 1 keeps all vibrations"
+                "expected a spectral radius from 0 to 1, found {radius}; 0.5 suits most runs, 1 keeps all vibrations"
             ))
         }
     }

@@ -8,6 +8,7 @@ mod block_lu;
 pub(crate) mod diagnosis;
 mod path;
 mod sensitivity;
+mod stability;
 pub(crate) mod tangent;
 pub(crate) mod unknowns;
 
@@ -15,6 +16,7 @@ use crate::group::Group;
 use crate::system::{Saved, System};
 use path::{Path, Poses};
 pub use sensitivity::Sensitivities;
+pub use stability::Stability;
 use tangent::Tangent;
 use unknowns::{Freedom, PER_STATION, Unknowns};
 

@@ -80,6 +80,16 @@ impl Unknowns {
         }
     }
 
+    /// Inertia of every unknown at the present dilatations, scaled: mass times length squared, and moment of inertia.
+    pub(crate) fn read_inertia(&self, groups: &[Group], inertia: &mut [f64]) {
+        let bodies = groups.iter().map(|g| &g.bodies);
+        let stations = bodies.flat_map(|b| (0..b.stations()).map(move |k| (b, k)));
+        for ((b, k), inertia) in stations.zip(inertia.chunks_exact_mut(PER_STATION)) {
+            inertia[..3].fill(b.mass[k] * self.scale.powi(2));
+            inertia[3..].copy_from_slice((b.inertia.get(k) / b.dilatation[k]).as_slice());
+        }
+    }
+
     /// How many stations away the loads on a body change when one of its stations moves, over all bodies.
     pub(crate) fn reach(&self, system: &mut System) -> usize {
         let now = crate::inputs::Moment {
