@@ -73,10 +73,15 @@ fn mode_of(source: &Source) -> Result<Mode, Failure> {
 
 /// The comparison for people.
 pub(super) fn show(c: &Comparison) -> String {
-    let rows = c.bodies.iter().map(|b| {
+    let all = c.bodies.iter().map(|b| (b, b.name.to_owned()));
+    let settled = c.settled.iter().map(|b| {
+        let name = format!("{}, the {} settled rows", b.name, c.settled_samples);
+        (b, name)
+    });
+    let rows = all.chain(settled).map(|(b, name)| {
         let [x, y, z] = b.position_bias_mm;
         vec![
-            b.name.to_owned(),
+            name,
             format!("{:.3}", b.position_rmse_mm),
             format!("{:.2}", b.rotation_rmse_mrad),
             format!("{x:+.2} {y:+.2} {z:+.2}"),

@@ -17,7 +17,7 @@ pub(crate) struct Unknowns {
     pub(crate) stations: usize,
     /// Stations without a frame: the last of every rod.
     frameless: Vec<usize>,
-    /// Length \[m\] that makes displacements and forces comparable with rotations and torques.
+    /// Length \[m\] that makes displacements and forces comparable with rotations and torques: of a mean element.
     pub(crate) scale: f64,
     /// Elements of the longest rod, at least 1.
     pub(crate) longest: f64,
@@ -47,7 +47,11 @@ impl Unknowns {
             offsets,
             stations,
             frameless,
-            scale: length / elements.max(1) as f64,
+            scale: if elements > 0 {
+                length / elements as f64
+            } else {
+                1.0
+            },
             longest: longest as f64,
         }
     }
