@@ -74,10 +74,7 @@ fn mode_of(source: &Source) -> Result<Mode, Failure> {
 /// The comparison for people.
 pub(super) fn show(c: &Comparison) -> String {
     let all = c.bodies.iter().map(|b| (b, b.name.to_owned()));
-    let settled = c.settled.iter().map(|b| {
-        let name = format!("{}, the {} settled rows", b.name, c.settled_samples);
-        (b, name)
-    });
+    let settled = (c.settled.iter()).map(|b| (b, format!("{}, settled", b.name)));
     let rows = all.chain(settled).map(|(b, name)| {
         let [x, y, z] = b.position_bias_mm;
         vec![
@@ -105,15 +102,18 @@ pub(super) fn show(c: &Comparison) -> String {
         Mode::Quasistatic => "rows, a steady state each",
         Mode::Dynamic => "rows through time",
     };
-    let mut left_out = String::new();
+    let mut parts = String::new();
+    if c.settled_samples > 0 {
+        parts += &format!(", {} of them settled", c.settled_samples);
+    }
     if c.skipped > 0 {
-        left_out += &format!(", {} dwells never settled", c.skipped);
+        parts += &format!(", {} dwells never settled", c.skipped);
     }
     if c.unsolved > 0 {
-        left_out += &format!(", {} samples without a steady state", c.unsolved);
+        parts += &format!(", {} samples without a steady state", c.unsolved);
     }
     format!(
-        "{} against recording {} ({}): {} {what}{left_out}, simulated in {:.2} s\n{rows}",
+        "{} against recording {} ({}): {} {what}{parts}, simulated in {:.2} s\n{rows}",
         c.scenario, c.recording, c.origin, c.samples, c.seconds
     )
 }
