@@ -1,10 +1,10 @@
-//! What an explicit step costs: by element, by thread, by size, and for the paper's robot with all that acts on it.
+//! What a step costs: by element, by thread, by size, and for the paper's robot with all that acts on it.
 //!
 //! The table at first gives least times of many tries, which other work on the machine hardly changes; criterion's
 //! figures follow.
 
 use auxetica::config::Source;
-use auxetica::engine::{Inputs, Model, Series};
+use auxetica::engine::{ImplicitOptions, ImplicitSolver, Inputs, Model, Series};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -96,6 +96,21 @@ fn table(_: &mut Criterion) {
     drop(model);
     let time = least(&mut robot(), 10);
     println!("the paper's robot {:.3} us a step", time * 1e6);
+    println!("the same, implicit {:.3} us a step", implicit() * 1e6);
+}
+
+/// Mean time of an implicit step of 0.02 s of the robot while its motors turn \[s\].
+fn implicit() -> f64 {
+    const STEPS: u32 = 5000;
+    let mut model = robot();
+    let options = ImplicitOptions::default();
+    let mut solver = ImplicitSolver::new(&mut model.system, options).expect("a robot");
+    let start = Instant::now();
+    for step in 1..=STEPS {
+        let moved = solver.advance(&mut model.system, 0.02 * f64::from(step));
+        moved.unwrap_or_else(|e| panic!("{e}"));
+    }
+    start.elapsed().as_secs_f64() / f64::from(STEPS)
 }
 
 fn step(c: &mut Criterion) {

@@ -1,10 +1,10 @@
-//! Every shipped scenario loads, builds and solves its first steady state, or 50 steps of a dynamic run.
+//! Every shipped scenario loads, builds and solves its first steady state, or 50 steps of a run through time.
 
 mod common;
 
 use auxetica::config::Source;
-use auxetica::engine::Model;
 use auxetica::engine::scenario::Solver;
+use auxetica::engine::{ImplicitSolver, Model};
 use std::path::Path;
 
 const STEPS: usize = 50;
@@ -19,6 +19,16 @@ fn solve(file: &Path) -> Result<(), String> {
                 .map(|t| **t)
                 .or(model.dwells.first().map(|dwell| dwell.time));
             common::steady(&mut model, first.unwrap_or(0.0));
+        }
+        Solver::Implicit { dt, .. } => {
+            let options = model.solver.implicit_options();
+            let mut solver =
+                ImplicitSolver::new(&mut model.system, options).map_err(|e| e.to_string())?;
+            for step in 1..=STEPS {
+                let time = step as f64 * *dt;
+                let moved = solver.advance(&mut model.system, time);
+                moved.map_err(|e| e.to_string())?;
+            }
         }
         Solver::Dynamic { .. } => {
             let dt = model.time_step().map_err(|e| e.to_string())?.dt;

@@ -35,9 +35,9 @@ fn good(source: &Source) -> Result<String, Problems> {
     let mut model = Model::build(source, None)?;
     let (bodies, elements) = (model.system.ids().len(), model.system.elements());
     let words = format!("({}; bodies: {bodies}, elements: {elements})", model.title);
-    if let Solver::Steady { .. } = model.solver {
+    let Solver::Dynamic { .. } = model.solver else {
         return Ok(words);
-    }
+    };
     let StepSize { dt, limit } = model.time_step().map_err(|e| too_long(&e, source))?;
     let set_by = critical(&mut model.system, limit).map_or(String::new(), |c| {
         let percent = 100.0 * c.share;

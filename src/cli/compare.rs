@@ -67,16 +67,18 @@ fn mode_of(source: &Source) -> Result<Mode, Failure> {
     let scenario: Scenario<'_> = source.parse()?;
     Ok(match scenario.solver {
         Solver::Steady { .. } => Mode::Steady,
-        Solver::Dynamic { .. } => Mode::Dynamic,
+        Solver::Dynamic { .. } | Solver::Implicit { .. } => Mode::Dynamic,
     })
 }
 
 /// The comparison for people.
 pub(super) fn show(c: &Comparison) -> String {
-    let rows = c.bodies.iter().map(|b| {
+    let all = c.bodies.iter().map(|b| (b, b.name.to_owned()));
+    let settled = (c.settled.iter()).map(|b| (b, format!("{}, settled", b.name)));
+    let rows = all.chain(settled).map(|(b, name)| {
         let [x, y, z] = b.position_bias_mm;
         vec![
-            b.name.to_owned(),
+            name,
             format!("{:.3}", b.position_rmse_mm),
             format!("{:.2}", b.rotation_rmse_mrad),
             format!("{x:+.2} {y:+.2} {z:+.2}"),
@@ -100,15 +102,18 @@ pub(super) fn show(c: &Comparison) -> String {
         Mode::Quasistatic => "rows, a steady state each",
         Mode::Dynamic => "rows through time",
     };
-    let mut left_out = String::new();
+    let mut parts = String::new();
+    if c.settled_samples > 0 {
+        parts += &format!(", {} of them settled", c.settled_samples);
+    }
     if c.skipped > 0 {
-        left_out += &format!(", {} dwells never settled", c.skipped);
+        parts += &format!(", {} dwells never settled", c.skipped);
     }
     if c.unsolved > 0 {
-        left_out += &format!(", {} samples without a steady state", c.unsolved);
+        parts += &format!(", {} samples without a steady state", c.unsolved);
     }
     format!(
-        "{} against recording {} ({}): {} {what}{left_out}, simulated in {:.2} s\n{rows}",
+        "{} against recording {} ({}): {} {what}{parts}, simulated in {:.2} s\n{rows}",
         c.scenario, c.recording, c.origin, c.samples, c.seconds
     )
 }

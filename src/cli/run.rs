@@ -90,6 +90,16 @@ fn at_its_place(error: RunError, source: &Source) -> Failure {
 }
 
 fn describe(summary: &Summary) -> String {
+    if let Some(cost) = summary.implicit {
+        let halved = match cost.halved {
+            0 => String::new(),
+            n => format!(", {n} of them halved"),
+        };
+        return format!(
+            "{} implicit steps of {:.4e} s{halved}; {} Newton iterations, {} tangents",
+            cost.steps, summary.step.dt, cost.iterations, cost.factorisations
+        );
+    }
     if summary.steady.is_empty() {
         let StepSize { dt, limit } = summary.step;
         return format!(
@@ -102,17 +112,25 @@ fn describe(summary: &Summary) -> String {
                 .map_or("", |_| ": close to it, see `solver.dt`")
         );
     }
-    let iterations: usize = summary.steady.iter().map(|(_, r)| r.iterations).sum();
+    let iterations: usize = summary.steady.iter().map(|(_, r, _)| r.iterations).sum();
     let residual = summary
         .steady
         .iter()
-        .map(|(_, r)| r.residual)
+        .map(|(_, r, _)| r.residual)
         .fold(0.0, f64::max);
     let states = match summary.steady.len() {
         1 => "1 steady state".to_owned(),
         n => format!("{n} steady states"),
     };
+    let unstable: Vec<String> = (summary.steady.iter())
+        .filter(|(.., stability)| !stability.is_some_and(|s| s.is_stable()))
+        .map(|(time, ..)| format!("{time:.3}"))
+        .collect();
+    let unstable = match &*unstable {
+        [] => String::new(),
+        times => format!("; not stable at t = {} s", times.join(", ")),
+    };
     format!(
-        "{states}, {iterations} Newton iterations; largest force out of balance {residual:.1e} N"
+        "{states}, {iterations} Newton iterations; largest force out of balance {residual:.1e} N{unstable}"
     )
 }

@@ -26,6 +26,10 @@ pub struct Comparison {
     pub unsolved: usize,
     /// The bodies.
     pub bodies: Vec<BodyMismatch>,
+    /// Rows at the settled end of a dwell, if every row is compared.
+    pub settled_samples: usize,
+    /// The bodies at these.
+    pub settled: Vec<BodyMismatch>,
     /// What is odd about the recording, in lines.
     pub audit: Vec<String>,
     /// Time the simulation took \[s\].
@@ -68,7 +72,9 @@ impl Comparison {
         sample_kind: SampleKind,
         seconds: f64,
     ) -> Self {
-        let body = |b: usize| BodyMismatch::new(BODIES[b], b, observed, simulated);
+        let all: Vec<usize> = (0..observed.time.len()).collect();
+        let body = |b: usize| BodyMismatch::new(b, observed, simulated, &all);
+        let settled = |b: usize| BodyMismatch::new(b, observed, simulated, &observed.settled);
         Self {
             recording: observed.name.clone(),
             scenario: scenario.into(),
@@ -79,6 +85,11 @@ impl Comparison {
             skipped: observed.skipped,
             unsolved: simulated.unsolved.len(),
             bodies: vec![body(0), body(1)],
+            settled_samples: observed.settled.len(),
+            settled: match &*observed.settled {
+                [] => Vec::new(),
+                _ => vec![settled(0), settled(1)],
+            },
             audit: observed
                 .audit
                 .to_string()
@@ -91,7 +102,7 @@ impl Comparison {
 }
 
 impl BodyMismatch {
-    fn new(name: &'static str, b: usize, observed: &Observed, simulated: &Simulated) -> Self {
+    fn new(b: usize, observed: &Observed, simulated: &Simulated, samples: &[usize]) -> Self {
         let mut count = 0.0;
         let (mut squares, mut turns, mut sum) = (0.0, 0.0, Vector3::zeros());
         let mut worst = Worst {
@@ -99,12 +110,11 @@ impl BodyMismatch {
             time_s: observed.time[0],
             position_mm: 0.0,
         };
-        for (sample, (shown, recorded)) in simulated.poses[b]
-            .iter()
-            .zip(&observed.poses[b])
-            .enumerate()
-        {
-            let Some(shown) = shown else { continue };
+        for &sample in samples {
+            let recorded = &observed.poses[b][sample];
+            let Some(shown) = &simulated.poses[b][sample] else {
+                continue;
+            };
             let apart = (shown.translation.vector - recorded.translation.vector) * 1e3;
             count += 1.0;
             sum += apart;
@@ -120,7 +130,7 @@ impl BodyMismatch {
         }
         let rms = |squares: f64| (squares / count).sqrt();
         Self {
-            name,
+            name: BODIES[b],
             position_rmse_mm: rms(squares),
             rotation_rmse_mrad: rms(turns),
             position_bias_mm: (sum / count).into(),

@@ -36,6 +36,8 @@ pub struct Observed {
     pub reference: Reference,
     /// Angles over time from rest on: of the samples if steady, else of every row.
     angles: (Vec<f64>, Vec<[f64; 4]>),
+    /// Samples at the settled end of a dwell, if every row is a sample.
+    pub settled: Vec<usize>,
     /// Dwells without a sample.
     pub skipped: usize,
     /// What is odd about the recording: gaps, stale frames, jumps, flips.
@@ -101,6 +103,7 @@ impl Observed {
             time: samples.time,
             poses: [samples.platform, samples.ring],
             reference: samples.reference,
+            settled: Vec::new(),
             skipped: samples.skipped,
             audit: Audit::new(recording)?,
         })
@@ -112,6 +115,9 @@ impl Observed {
         let BasePoses { platform, ring, .. } = poses.from_rest(&reference);
         let motors = MotorAngles::new(recording);
         let rows = motors.first_row..motors.first_row + motors.time.len();
+        let settled = SettleRule::default().samples(recording, geometry)?;
+        let settled = settled.row.iter().filter(|row| rows.contains(row));
+        let settled = settled.map(|row| row - rows.start).collect();
         Ok(Self {
             name: recording.name.clone(),
             origin: "motion capture",
@@ -120,6 +126,7 @@ impl Observed {
             reference,
             rest: motors.time[0],
             angles: (motors.time, motors.present),
+            settled,
             skipped: 0,
             audit: Audit::new(recording)?,
         })
@@ -129,6 +136,7 @@ impl Observed {
     pub fn end_at(&mut self, until: f64) {
         let kept = self.time.partition_point(|t| *t <= until);
         self.time.truncate(kept);
+        self.settled.retain(|sample| *sample < kept);
         for poses in &mut self.poses {
             poses.truncate(kept);
         }

@@ -3,8 +3,9 @@
 use super::{CompareError, Observed};
 use crate::config::{Source, Vec3};
 use crate::engine::run::Progress;
-use crate::engine::scenario::{Capture, Marker, StepSize};
-use crate::engine::{Model, RunError, SteadySolver};
+use crate::engine::scenario::{Capture, Marker, Solver, StepSize};
+use crate::engine::steady::NotSteady;
+use crate::engine::{ImplicitSolver, Model, RunError, SteadySolver, System};
 use crate::recordings::{MarkerFrame, OffsetZ, Pose};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 
@@ -16,12 +17,14 @@ pub enum Mode {
     Steady,
     /// A steady state at every row, as if the robot moved infinitely slowly.
     Quasistatic,
-    /// Through time, explicitly.
+    /// Through time, by explicit steps if the scenario's solver is `Dynamic`, else by implicit ones.
     Dynamic,
 }
 
 /// Names of the markers that recordings know.
 pub const BODIES: [&str; 2] = ["platform", "ring"];
+/// Implicit step \[s\] of scenarios that give none.
+const STEP: f64 = 0.02;
 /// Progress is told this many times at most.
 const REPORTS: usize = 200;
 
@@ -65,9 +68,9 @@ impl Simulated {
             poses: [Vec::new(), Vec::new()],
             unsolved: Vec::new(),
         };
-        let step = match mode {
-            Mode::Steady | Mode::Quasistatic => StepSize::default(),
-            Mode::Dynamic => model.time_step()?,
+        let mut driver = match mode {
+            Mode::Steady | Mode::Quasistatic => Driver::Steady(solver),
+            Mode::Dynamic => Driver::through_time(&mut model)?,
         };
         for (i, time) in observed.time.iter().enumerate() {
             if i % observed.time.len().div_ceil(REPORTS) == 0
@@ -76,15 +79,7 @@ impl Simulated {
                 let time = model.system.time();
                 return Err(RunError::Interrupted { time }.into());
             }
-            let solved = match mode {
-                Mode::Steady | Mode::Quasistatic => {
-                    solver.advance(&mut model.system, *time).map(drop)
-                }
-                Mode::Dynamic => {
-                    through(&mut model, *time, step)?;
-                    Ok(())
-                }
-            };
+            let solved = driver.advance(&mut model.system, *time)?;
             if let Err(e) = &solved {
                 simulated.unsolved.push((i, e.to_string()));
             }
@@ -135,15 +130,51 @@ pub(crate) fn seen(Capture { turn, shift }: &Capture) -> Pose {
     Pose::new(vector(shift), vector(turn))
 }
 
-/// Steps the model to `time`.
-fn through(model: &mut Model, time: f64, StepSize { dt, limit }: StepSize) -> Result<(), RunError> {
-    let span = time - model.system.time();
-    let steps = (span / dt).ceil().max(0.0);
-    for _ in 0..steps as u64 {
-        model.system.step(span / steps).map_err(|blow_up| {
-            let blow_up = Box::new(blow_up);
-            RunError::BlowUp { blow_up, limit, dt }
-        })?;
+/// What moves the scenario from sample to sample.
+enum Driver {
+    Steady(SteadySolver),
+    Explicit(StepSize),
+    Implicit { solver: ImplicitSolver, dt: f64 },
+}
+
+impl Driver {
+    fn through_time(model: &mut Model) -> Result<Self, RunError> {
+        let dt = match model.solver {
+            Solver::Dynamic { .. } => return Ok(Self::Explicit(model.time_step()?)),
+            Solver::Implicit { dt, .. } => *dt,
+            Solver::Steady { .. } => STEP,
+        };
+        let options = model.solver.implicit_options();
+        let solver = ImplicitSolver::new(&mut model.system, options)?;
+        Ok(Self::Implicit { solver, dt })
     }
-    Ok(())
+
+    /// Moves the system to `time` \[s\]. That there is no steady state is no reason to end.
+    fn advance(
+        &mut self,
+        system: &mut System,
+        time: f64,
+    ) -> Result<Result<(), NotSteady>, RunError> {
+        let start = system.time();
+        let steps = |dt: f64| ((time - start) / dt).ceil().max(0.0) as u64;
+        match self {
+            Self::Steady(solver) => return Ok(solver.advance(system, time).map(drop)),
+            Self::Explicit(StepSize { dt, limit }) => {
+                let steps = steps(*dt);
+                let (limit, dt) = (*limit, (time - start) / steps as f64);
+                system.advance(dt, steps).map_err(|blow_up| {
+                    let blow_up = Box::new(blow_up);
+                    RunError::BlowUp { blow_up, limit, dt }
+                })?;
+            }
+            Self::Implicit { solver, dt } => {
+                let steps = steps(*dt);
+                for step in 1..=steps {
+                    let share = step as f64 / steps as f64;
+                    solver.advance(system, start + (time - start) * share)?;
+                }
+            }
+        }
+        Ok(Ok(()))
+    }
 }

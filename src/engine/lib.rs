@@ -14,6 +14,7 @@ pub mod elementary;
 mod energy;
 mod group;
 pub mod hooks;
+pub mod implicit;
 pub mod inputs;
 mod kernel;
 mod lanes;
@@ -40,12 +41,13 @@ pub use hooks::{
     Actuation, BoundaryCondition, Callback, CallbackError, Damping, Drive, Dwell, Forcing, Joint,
     RodLaw, Setting, Snapshot,
 };
+pub use implicit::{ImplicitOptions, ImplicitReport, ImplicitSolver, NoStep};
 pub use inputs::{Inputs, Moment, Series, Signal};
 pub use rod::{Rod, Section};
 pub use run::{RunError, Summary};
 pub use scenario::Model;
 pub use site::{JointLoad, Place, Site, Wrench};
-pub use steady::{Sensitivities, SteadyOptions, SteadyReport, SteadySolver};
+pub use steady::{Sensitivities, Stability, SteadyOptions, SteadyReport, SteadySolver};
 pub use step::BlowUp;
 pub use system::System;
 pub use view::{Body, LawView, LoadView, PoseView, RateSlices, RateView, ReadBody};

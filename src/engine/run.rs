@@ -1,8 +1,9 @@
 //! Solving a model from start to end, with its callbacks.
 
 use crate::hooks::{CallbackError, Snapshot};
+use crate::implicit::{ImplicitReport, ImplicitSolver, NoStep};
 use crate::scenario::{LARGEST_SHARE, Model, Solver, StepSize, Watcher};
-use crate::steady::{NotSteady, SteadyReport, SteadySolver};
+use crate::steady::{NotSteady, Stability, SteadyReport, SteadySolver};
 use crate::step::BlowUp;
 use crate::system::System;
 use std::ops::ControlFlow;
@@ -38,6 +39,9 @@ pub enum RunError {
         /// Stability limit \[s\].
         limit: f64,
     },
+    /// No implicit step was found.
+    #[error(transparent)]
+    NoStep(#[from] NoStep),
     /// No equilibrium was found.
     #[error(transparent)]
     NotSteady(#[from] NotSteady),
@@ -59,10 +63,12 @@ pub struct Summary {
     pub time: f64,
     /// Steps of a dynamic run.
     pub steps: u64,
-    /// Time step and stability limit of a dynamic run.
+    /// Time step of a run through time, and stability limit of an explicit one.
     pub step: StepSize,
-    /// Time \[s\] and cost of each steady state.
-    pub steady: Vec<(f64, SteadyReport)>,
+    /// What implicit steps have cost.
+    pub implicit: Option<ImplicitReport>,
+    /// Time \[s\], cost and stability of each steady state; no stability of a singular one.
+    pub steady: Vec<(f64, SteadyReport, Option<Stability>)>,
     /// Files written by callbacks.
     pub files: Vec<PathBuf>,
 }
@@ -84,7 +90,7 @@ impl Model {
         // Before any callback replaces results: what can't be run leaves them as they are.
         let step = match self.solver {
             Solver::Dynamic { .. } => self.time_step()?,
-            Solver::Steady { .. } => StepSize::default(),
+            Solver::Implicit { .. } | Solver::Steady { .. } => StepSize::default(),
         };
         let mut started = 0;
         let mut outcome = Ok(());
@@ -104,6 +110,9 @@ impl Model {
             outcome = match self.solver.clone() {
                 Solver::Dynamic { duration, .. } => self
                     .run_dynamic(*duration, step, &mut summary, progress)
+                    .inspect(|()| reached(self)),
+                Solver::Implicit { duration, dt, .. } => self
+                    .run_implicit(*duration, *dt, &mut summary, progress)
                     .inspect(|()| reached(self)),
                 Solver::Steady { at, .. } => {
                     let at = at.iter().map(|t| **t).collect();
@@ -129,10 +138,51 @@ impl Model {
         summary: &mut Summary,
         progress: &mut Progress<'_>,
     ) -> Result<(), RunError> {
-        let system = &mut self.system;
         let steps = (duration / wanted).ceil().max(1.0);
         let dt = duration / steps;
         summary.step = StepSize { dt, limit };
+        let advance = &mut |system: &mut System, _, count| {
+            system.advance(dt, count).map_err(|blow_up| {
+                let blow_up = Box::new(blow_up);
+                RunError::BlowUp { blow_up, limit, dt }
+            })
+        };
+        self.run_through(dt, steps, STEPS_PER_REPORT, advance, summary, progress)
+    }
+
+    fn run_implicit(
+        &mut self,
+        duration: f64,
+        wanted: f64,
+        summary: &mut Summary,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), RunError> {
+        let mut solver = ImplicitSolver::new(&mut self.system, self.solver.implicit_options())?;
+        let steps = (duration / wanted).ceil().max(1.0);
+        let dt = duration / steps;
+        summary.step.dt = dt;
+        let start = self.system.time();
+        let advance = &mut |system: &mut System, step, count| {
+            let to = start + (step + count) as f64 * dt;
+            Ok(solver.advance(system, to)?)
+        };
+        let outcome = self.run_through(dt, steps, 1, advance, summary, progress);
+        summary.implicit = Some(solver.report());
+        outcome
+    }
+
+    /// Steps of `dt` \[s\] by `advance`, which is told how many there were and how many to take now, with callbacks and
+    /// reports of progress between them.
+    fn run_through(
+        &mut self,
+        dt: f64,
+        steps: f64,
+        steps_per_report: u64,
+        advance: &mut dyn FnMut(&mut System, u64, u64) -> Result<(), RunError>,
+        summary: &mut Summary,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), RunError> {
+        let system = &mut self.system;
         let start = system.time();
         let mut next: Vec<f64> = vec![start; self.watchers.len()];
         let (mut step, last) = (0, steps as u64);
@@ -148,7 +198,7 @@ impl Model {
                     }
                 }
             }
-            if step % STEPS_PER_REPORT == 0 && progress(step as f64 / steps).is_break() {
+            if step % steps_per_report == 0 && progress(step as f64 / steps).is_break() {
                 let time = system.time();
                 return Err(RunError::Interrupted { time });
             }
@@ -158,16 +208,13 @@ impl Model {
             // as far as there is nothing to record or report
             let (mut count, mut time) = (1, system.time() + dt);
             while step + count < last
-                && (step + count) % STEPS_PER_REPORT != 0
+                && (step + count) % steps_per_report != 0
                 && !next.iter().any(|next| due(next, time))
             {
                 count += 1;
                 time += dt;
             }
-            if let Err(blow_up) = system.advance(dt, count) {
-                let blow_up = Box::new(blow_up);
-                return Err(RunError::BlowUp { blow_up, limit, dt });
-            }
+            advance(system, step, count)?;
             step += count;
             summary.steps = step;
         }
@@ -193,7 +240,8 @@ impl Model {
                 return Err(RunError::Interrupted { time });
             }
             let report = solver.advance(&mut self.system, *time)?;
-            summary.steady.push((*time, report));
+            let stability = solver.stability(&mut self.system).ok();
+            summary.steady.push((*time, report, stability));
             reached(self);
             for watcher in &mut self.watchers {
                 watcher.call(&self.system)?;

@@ -110,7 +110,7 @@ pub(crate) fn mean_element_length(system: &System) -> f64 {
 }
 
 /// Numbers without structure and the same each time: any eigenvector has a share in them.
-fn seed(n: usize) -> Vec<f64> {
+pub(crate) fn seed(n: usize) -> Vec<f64> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let draw = |_| {
         state ^= state << 13;

@@ -156,7 +156,7 @@ impl System {
     }
 
     /// Body, node or element, and fault of the first that isn't sound.
-    fn first_fault(&self) -> Option<(String, usize, &'static str)> {
+    pub(crate) fn first_fault(&self) -> Option<(String, usize, &'static str)> {
         self.ids().iter().find_map(|id| {
             let body = self.body(*id);
             let fault = |i: usize| {

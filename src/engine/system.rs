@@ -297,12 +297,28 @@ impl System {
 
     /// Sets boundary values and rates of the present time.
     pub fn apply_boundaries(&mut self) {
+        self.set_values();
+        self.set_rates();
+    }
+
+    /// Sets boundary values of the present time.
+    pub(crate) fn set_values(&mut self) {
         let now = Moment {
             time: self.time,
             inputs: &self.inputs,
         };
         for group in &mut self.groups {
             group.set_values(&now);
+        }
+    }
+
+    /// Sets boundary rates of the present time.
+    pub(crate) fn set_rates(&mut self) {
+        let now = Moment {
+            time: self.time,
+            inputs: &self.inputs,
+        };
+        for group in &mut self.groups {
             group.set_rates(&now);
         }
     }

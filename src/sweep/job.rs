@@ -55,7 +55,7 @@ impl Outcome {
             Ok(Err(failure)) => (Some(failure.to_string()), None),
             Err(problems) => (Some(problems), None),
             Ok(Ok(summary)) => {
-                for (state, (_, report)) in states.iter_mut().zip(&summary.steady) {
+                for (state, (_, report, _)) in states.iter_mut().zip(&summary.steady) {
                     state.iterations = Some(report.iterations);
                 }
                 (None, summary.steady.is_empty().then_some(summary.steps))

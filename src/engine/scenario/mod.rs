@@ -13,6 +13,7 @@ pub use targets::Targets;
 pub use time_step::{LARGEST_SHARE, StepSize, TimeStep};
 pub use uncertain::Uncertain;
 
+use crate::implicit::ImplicitOptions;
 use crate::steady::SteadyOptions;
 use auxetica_config::{Finite, NonNegative, Positive, Vec3};
 use ron::value::RawValue;
@@ -169,6 +170,19 @@ pub enum Solver {
         #[serde(default)]
         unstable: bool,
     },
+    /// Through time by implicit steps of any length (generalised-alpha).
+    Implicit {
+        /// Duration \[s\].
+        duration: Positive,
+        /// Time step \[s\]: a small share of the shortest period of interest.
+        dt: Positive,
+        /// Share that a step leaves of vibrations much faster than it, 0 to 1.
+        #[serde(default)]
+        spectral_radius: SpectralRadius,
+        /// Error of a step that is left by its iterations: rotations \[rad\], and displacements in element lengths.
+        #[serde(default = "step_tolerance")]
+        tolerance: Positive,
+    },
     /// Static equilibria by Newton's method.
     Steady {
         /// Times \[s\] of inputs and ramps at which the steady state is sought, in this order; by default where the
@@ -190,11 +204,57 @@ impl Solver {
                 tolerance: **tolerance,
                 ..defaults
             },
-            Self::Dynamic { .. } => defaults,
+            Self::Dynamic { .. } | Self::Implicit { .. } => defaults,
+        }
+    }
+
+    /// How implicit steps are taken; other scenarios have the defaults.
+    pub fn implicit_options(&self) -> ImplicitOptions {
+        let defaults = ImplicitOptions::default();
+        match self {
+            Self::Implicit {
+                spectral_radius,
+                tolerance,
+                ..
+            } => ImplicitOptions {
+                spectral_radius: spectral_radius.0,
+                tolerance: **tolerance,
+                ..defaults
+            },
+            Self::Dynamic { .. } | Self::Steady { .. } => defaults,
         }
     }
 }
 
+fn step_tolerance() -> Positive {
+    Positive::new(ImplicitOptions::default().tolerance).expect("the default is positive")
+}
+
 fn tolerance() -> Positive {
     Positive::new(1e-9).expect("the default is positive")
+}
+
+/// A share from 0 to 1.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(try_from = "f64")]
+pub struct SpectralRadius(f64);
+
+impl TryFrom<f64> for SpectralRadius {
+    type Error = String;
+
+    fn try_from(radius: f64) -> Result<Self, String> {
+        if (0.0..=1.0).contains(&radius) {
+            Ok(Self(radius))
+        } else {
+            Err(format!(
+                "expected a spectral radius from 0 to 1, found {radius}; 0.5 suits most runs, 1 keeps all vibrations"
+            ))
+        }
+    }
+}
+
+impl Default for SpectralRadius {
+    fn default() -> Self {
+        Self(ImplicitOptions::default().spectral_radius)
+    }
 }

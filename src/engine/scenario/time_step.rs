@@ -71,7 +71,7 @@ impl Model {
     pub fn time_step(&mut self) -> Result<StepSize, RunError> {
         let (wish, unstable) = match self.solver {
             Solver::Dynamic { dt, unstable, .. } => (dt, unstable),
-            Solver::Steady { .. } => (TimeStep::Auto, false),
+            Solver::Implicit { .. } | Solver::Steady { .. } => (TimeStep::Auto, false),
         };
         let limit = self.stability_limit();
         let dt = match wish {

@@ -148,19 +148,22 @@ fn free_motion(
 }
 
 /// Where the loads near the present poses aren't finite numbers although those at them are.
-pub(super) fn no_derivative(system: &System, unknowns: &Unknowns, station: usize) -> String {
+pub(crate) fn no_derivative(system: &System, unknowns: &Unknowns, station: usize) -> String {
+    let place = place(system, unknowns, station);
+    format!("the loads on {place} have no finite derivative")
+}
+
+/// Body and node of a station, in words.
+pub(crate) fn place(system: &System, unknowns: &Unknowns, station: usize) -> String {
     let (group, k) = unknowns.locate(station);
     let layouts = system.groups[group].bodies.layouts().iter();
     let layout = layouts.rev().find(|l| l.first <= k);
     let (name, first) = layout.map_or(("", k), |l| (&l.name, l.first));
-    format!(
-        "the loads on `{name}` at node {} have no finite derivative",
-        k - first
-    )
+    format!("`{name}` at node {}", k - first)
 }
 
 /// Whose loads aren't finite numbers at the present poses, which are.
-pub(super) fn not_finite(system: &mut System) -> String {
+pub(crate) fn not_finite(system: &mut System) -> String {
     system.evaluate();
     let bad = |body: &crate::view::Body<'_>| {
         let node = |i: &usize| {

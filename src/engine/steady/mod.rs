@@ -5,15 +5,18 @@
 //! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on.
 
 mod block_lu;
-mod diagnosis;
+pub(crate) mod diagnosis;
 mod path;
 mod sensitivity;
-mod tangent;
-mod unknowns;
+mod stability;
+pub(crate) mod tangent;
+pub(crate) mod unknowns;
 
+use crate::group::Group;
 use crate::system::{Saved, System};
 use path::{Path, Poses};
 pub use sensitivity::Sensitivities;
+pub use stability::Stability;
 use tangent::Tangent;
 use unknowns::{Freedom, PER_STATION, Unknowns};
 
@@ -310,7 +313,7 @@ impl SteadySolver {
 
     /// The tangent matrix of the present state and its factors.
     fn factorise(&mut self, system: &mut System, report: &mut SteadyReport) -> Result<(), String> {
-        self.tangent.fill(system, &self.unknowns);
+        self.tangent.fill(system, &self.unknowns, Group::loads, 0.0);
         report.evaluations += self.tangent.evaluations();
         if let Some(station) = self.tangent.not_finite() {
             self.moved = None;
@@ -324,7 +327,7 @@ impl SteadySolver {
 
     /// Bodies that nothing holds, in words.
     fn unheld(&mut self, system: &mut System) -> Option<String> {
-        self.tangent.fill(system, &self.unknowns);
+        self.tangent.fill(system, &self.unknowns, Group::loads, 0.0);
         diagnosis::unheld(system, &self.unknowns, &self.freedom, &self.tangent)
     }
 

@@ -31,7 +31,7 @@ struct Colour {
 }
 
 /// The sparse tangent matrix: pattern, values, and how to fill and factorise it.
-pub(super) struct Tangent {
+pub(crate) struct Tangent {
     colours: Vec<Colour>,
     /// Bodies' blocks colour by colour, then joints' blocks column by column.
     blocks: Vec<Block>,
@@ -46,44 +46,61 @@ pub(super) struct Tangent {
 /// One station before it was moved.
 struct Place {
     position: Vector3<f64>,
+    velocity: Vector3<f64>,
     frame: Matrix3<f64>,
+    omega: Vector3<f64>,
+}
+
+/// How far stations are moved.
+struct Nudge {
+    /// Length of a unit \[m\].
+    scale: f64,
+    /// Change of a station's rates for a unit change of its pose \[1/s\].
+    rate: f64,
+    /// Rotations by [`DIFFERENCE`].
+    turns: [Matrix3<f64>; 3],
 }
 
 impl Place {
-    /// Moves a station by one of its unknowns and returns where it was. `turns` are the rotations by [`DIFFERENCE`].
-    fn moved(
-        group: &mut Group,
-        k: usize,
-        (j, sign): (usize, f64),
-        scale: f64,
-        turns: &[Matrix3<f64>; 3],
-    ) -> Self {
+    /// Moves a station by one of its unknowns and returns where it was.
+    fn moved(group: &mut Group, k: usize, (j, sign): (usize, f64), nudge: &Nudge) -> Self {
         let state = &mut group.bodies.state;
-        let (position, frame) = (state.position.get(k), state.director.get(k));
+        let place = Self {
+            position: state.position.get(k),
+            velocity: state.velocity.get(k),
+            frame: state.director.get(k),
+            omega: state.omega.get(k),
+        };
+        let by = Vector3::ith(j % 3, sign * DIFFERENCE);
         if j < 3 {
-            let mut moved = position;
-            moved[j] += sign * DIFFERENCE * scale;
-            state.position.set(k, moved);
-        } else if sign > 0.0 {
-            state.director.set(k, turns[j - 3] * frame);
+            let shift = by * nudge.scale;
+            state.position.set(k, place.position + shift);
+            state.velocity.set(k, place.velocity + shift * nudge.rate);
         } else {
-            state.director.set(k, turns[j - 3].tr_mul(&frame));
+            let turn = &nudge.turns[j - 3];
+            let frame = if sign > 0.0 {
+                turn * place.frame
+            } else {
+                turn.tr_mul(&place.frame)
+            };
+            state.director.set(k, frame);
+            state.omega.set(k, place.omega + by * nudge.rate);
         }
-        Self { position, frame }
+        place
     }
 
-    fn restore(&self, group: &mut Group, k: usize, j: usize) {
-        if j < 3 {
-            group.bodies.state.position.set(k, self.position);
-        } else {
-            group.bodies.state.director.set(k, self.frame);
-        }
+    fn restore(&self, group: &mut Group, k: usize) {
+        let state = &mut group.bodies.state;
+        state.position.set(k, self.position);
+        state.velocity.set(k, self.velocity);
+        state.director.set(k, self.frame);
+        state.omega.set(k, self.omega);
     }
 }
 
 impl Tangent {
     /// The pattern for loads that depend on `reach` neighbours to each side.
-    pub(super) fn new(system: &System, unknowns: &Unknowns, reach: usize) -> Self {
+    pub(crate) fn new(system: &System, unknowns: &Unknowns, reach: usize) -> Self {
         let spacing = 2 * reach + 1;
         let mut colours = Vec::new();
         let mut pattern = Vec::new();
@@ -128,19 +145,36 @@ impl Tangent {
     }
 
     /// Evaluations of all bodies' loads that [`Tangent::fill`] takes.
-    pub(super) fn evaluations(&self) -> usize {
+    pub(crate) fn evaluations(&self) -> usize {
         2 * PER_STATION * self.colours.len()
     }
 
-    /// Differentiates at the present state.
-    pub(super) fn fill(&mut self, system: &mut System, unknowns: &Unknowns) {
-        let turns = [Vector3::x(), Vector3::y(), Vector3::z()]
-            .map(|axis| rotation::turned(&Matrix3::identity(), &(axis * DIFFERENCE)));
-        self.fill_bodies(system, unknowns, &turns);
-        self.fill_joints(system, unknowns, &turns);
+    /// Differentiates what `loads` finds of a group, and joints, at the present state. A station's rates change by `rate`
+    /// \[1/s\] times the change of its pose: 0 for loads at rest.
+    pub(crate) fn fill(
+        &mut self,
+        system: &mut System,
+        unknowns: &Unknowns,
+        loads: impl Fn(&mut Group, &Moment<'_>) + Send + Sync,
+        rate: f64,
+    ) {
+        let nudge = Nudge {
+            scale: unknowns.scale,
+            rate,
+            turns: [Vector3::x(), Vector3::y(), Vector3::z()]
+                .map(|axis| rotation::turned(&Matrix3::identity(), &(axis * DIFFERENCE))),
+        };
+        self.fill_bodies(system, unknowns, loads, &nudge);
+        self.fill_joints(system, unknowns, &nudge);
     }
 
-    fn fill_bodies(&mut self, system: &mut System, unknowns: &Unknowns, turns: &[Matrix3<f64>; 3]) {
+    fn fill_bodies(
+        &mut self,
+        system: &mut System,
+        unknowns: &Unknowns,
+        find_loads: impl Fn(&mut Group, &Moment<'_>) + Send + Sync,
+        nudge: &Nudge,
+    ) {
         let System {
             groups,
             inputs,
@@ -156,12 +190,13 @@ impl Tangent {
             for j in 0..PER_STATION {
                 for (sign, loads) in [(1.0, &mut self.forth), (-1.0, &mut self.back)] {
                     places.clear();
-                    places.extend(colour.stations.iter().map(|(g, k)| {
-                        Place::moved(&mut groups[*g], *k, (j, sign), unknowns.scale, turns)
-                    }));
-                    crate::group::each(groups, |group| group.loads(&now));
+                    let stations = colour.stations.iter();
+                    places.extend(
+                        stations.map(|(g, k)| Place::moved(&mut groups[*g], *k, (j, sign), nudge)),
+                    );
+                    crate::group::each(groups, |group| find_loads(group, &now));
                     for (place, (g, k)) in places.iter().zip(&colour.stations) {
-                        place.restore(&mut groups[*g], *k, j);
+                        place.restore(&mut groups[*g], *k);
                     }
                     unknowns.read_loads(groups, loads);
                 }
@@ -180,7 +215,7 @@ impl Tangent {
         }
     }
 
-    fn fill_joints(&mut self, system: &mut System, unknowns: &Unknowns, turns: &[Matrix3<f64>; 3]) {
+    fn fill_joints(&mut self, system: &mut System, unknowns: &Unknowns, nudge: &Nudge) {
         let System {
             groups,
             joints,
@@ -200,8 +235,7 @@ impl Tangent {
                 let values = &mut self.values[first..first + stations.len()];
                 for j in 0..PER_STATION {
                     for sign in [1.0, -1.0] {
-                        let place =
-                            Place::moved(&mut groups[g], k, (j, sign), unknowns.scale, turns);
+                        let place = Place::moved(&mut groups[g], k, (j, sign), nudge);
                         let share = sign / (2.0 * DIFFERENCE);
                         for side in joint.applied(groups, &now) {
                             let row = |k: usize| {
@@ -216,7 +250,7 @@ impl Tangent {
                                 torque += side.torque * share;
                             }
                         }
-                        place.restore(&mut groups[g], k, j);
+                        place.restore(&mut groups[g], k);
                     }
                 }
                 first += stations.len();
@@ -224,8 +258,20 @@ impl Tangent {
         }
     }
 
+    /// Takes `inertia` times the acceleration from the loads: one number an unknown, times `rate` \[1/s2\].
+    pub(crate) fn subtract_inertia(&mut self, inertia: &[f64], rate: f64) {
+        let bodies = self.colours.last().map_or(0, |c| c.blocks.end);
+        for (block, value) in self.blocks.iter().zip(&mut self.values).take(bodies) {
+            if block.row == block.column {
+                for i in 0..PER_STATION {
+                    value[(i, i)] -= inertia[block.row * PER_STATION + i] * rate;
+                }
+            }
+        }
+    }
+
     /// The largest entry in the columns of some stations.
-    pub(super) fn largest(&self, stations: &[usize]) -> f64 {
+    pub(crate) fn largest(&self, stations: &[usize]) -> f64 {
         let blocks = self.blocks.iter().zip(&self.values);
         blocks
             .filter(|(block, _)| stations.contains(&block.column))
@@ -233,14 +279,14 @@ impl Tangent {
     }
 
     /// A station whose loads' derivatives aren't finite numbers.
-    pub(super) fn not_finite(&self) -> Option<usize> {
+    pub(crate) fn not_finite(&self) -> Option<usize> {
         let mut blocks = self.blocks.iter().zip(&self.values);
         let bad = blocks.find(|(_, value)| !value.iter().all(|v| v.is_finite()));
         bad.map(|(block, _)| block.row)
     }
 
     /// `(P J + s (I - P)) x`, P the projection on what is free.
-    pub(super) fn times(&self, freedom: &Freedom, x: &[f64], s: f64) -> Vec<f64> {
+    pub(crate) fn times(&self, freedom: &Freedom, x: &[f64], s: f64) -> Vec<f64> {
         let at = |station: usize| {
             Vector6::from_column_slice(&x[station * PER_STATION..(station + 1) * PER_STATION])
         };
@@ -255,7 +301,7 @@ impl Tangent {
 
     /// Factorises `P J + (I - P)`, P the projection on what is free: free rows ask for equilibrium, held rows for a
     /// given displacement.
-    pub(super) fn factorise(&mut self, freedom: &Freedom) {
+    pub(crate) fn factorise(&mut self, freedom: &Freedom) {
         let matrix = self.factors.blocks_mut();
         matrix.fill(Matrix6::zeros());
         for (station, free) in freedom.free.iter().enumerate() {
@@ -274,7 +320,7 @@ impl Tangent {
     }
 
     /// Solves in place with the last factors; `false` if the result isn't finite (a singular matrix).
-    pub(super) fn solve(&self, side: &mut [f64]) -> bool {
+    pub(crate) fn solve(&self, side: &mut [f64]) -> bool {
         self.factors.solve(side)
     }
 }

@@ -7,24 +7,24 @@ use crate::system::System;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 /// Unknowns a station: displacement over the length scale, and material rotation vector.
-pub(super) const PER_STATION: usize = 6;
+pub(crate) const PER_STATION: usize = 6;
 
 /// Numbers all stations of a system and scales their unknowns.
-pub(super) struct Unknowns {
+pub(crate) struct Unknowns {
     /// First station of each group.
     offsets: Vec<usize>,
     /// Number of stations.
-    pub(super) stations: usize,
+    pub(crate) stations: usize,
     /// Stations without a frame: the last of every rod.
     frameless: Vec<usize>,
-    /// Length \[m\] that makes displacements and forces comparable with rotations and torques.
-    pub(super) scale: f64,
+    /// Length \[m\] that makes displacements and forces comparable with rotations and torques: of a mean element.
+    pub(crate) scale: f64,
     /// Elements of the longest rod, at least 1.
-    pub(super) longest: f64,
+    pub(crate) longest: f64,
 }
 
 impl Unknowns {
-    pub(super) fn of(system: &System) -> Self {
+    pub(crate) fn of(system: &System) -> Self {
         let mut offsets = Vec::new();
         let mut stations = 0;
         let mut frameless = Vec::new();
@@ -47,29 +47,33 @@ impl Unknowns {
             offsets,
             stations,
             frameless,
-            scale: length / elements.max(1) as f64,
+            scale: if elements > 0 {
+                length / elements as f64
+            } else {
+                1.0
+            },
             longest: longest as f64,
         }
     }
 
     /// Global number of a group's station.
-    pub(super) fn global(&self, group: usize, station: usize) -> usize {
+    pub(crate) fn global(&self, group: usize, station: usize) -> usize {
         self.offsets[group] + station
     }
 
     /// Whether a global station has a frame.
-    pub(super) fn has_frame(&self, station: usize) -> bool {
+    pub(crate) fn has_frame(&self, station: usize) -> bool {
         self.frameless.binary_search(&station).is_err()
     }
 
     /// Group and station in it of a global station.
-    pub(super) fn locate(&self, station: usize) -> (usize, usize) {
+    pub(crate) fn locate(&self, station: usize) -> (usize, usize) {
         let group = self.offsets.partition_point(|first| *first <= station) - 1;
         (group, station - self.offsets[group])
     }
 
     /// Present loads, scaled: force times length, and torque.
-    pub(super) fn read_loads(&self, groups: &[Group], loads: &mut [f64]) {
+    pub(crate) fn read_loads(&self, groups: &[Group], loads: &mut [f64]) {
         for (group, first) in groups.iter().zip(&self.offsets) {
             let Bodies { force, torque, .. } = &group.bodies;
             for k in 0..group.bodies.stations() {
@@ -80,8 +84,18 @@ impl Unknowns {
         }
     }
 
+    /// Inertia of every unknown at the present dilatations, scaled: mass times length squared, and moment of inertia.
+    pub(crate) fn read_inertia(&self, groups: &[Group], inertia: &mut [f64]) {
+        let bodies = groups.iter().map(|g| &g.bodies);
+        let stations = bodies.flat_map(|b| (0..b.stations()).map(move |k| (b, k)));
+        for ((b, k), inertia) in stations.zip(inertia.chunks_exact_mut(PER_STATION)) {
+            inertia[..3].fill(b.mass[k] * self.scale.powi(2));
+            inertia[3..].copy_from_slice((b.inertia.get(k) / b.dilatation[k]).as_slice());
+        }
+    }
+
     /// How many stations away the loads on a body change when one of its stations moves, over all bodies.
-    pub(super) fn reach(&self, system: &mut System) -> usize {
+    pub(crate) fn reach(&self, system: &mut System) -> usize {
         let now = crate::inputs::Moment {
             time: system.time,
             inputs: &system.inputs,
@@ -131,7 +145,7 @@ impl Unknowns {
     }
 
     /// Moves one station by its six scaled unknowns.
-    pub(super) fn displace(&self, bodies: &mut Bodies, k: usize, by: &Vector6<f64>) {
+    pub(crate) fn displace(&self, bodies: &mut Bodies, k: usize, by: &Vector6<f64>) {
         let shift: Vector3<f64> = by.fixed_rows::<3>(0) * self.scale;
         bodies.state.position.add(k, shift);
         let frame = bodies.state.director.get(k);
@@ -143,7 +157,7 @@ impl Unknowns {
     }
 
     /// Moves all stations.
-    pub(super) fn displace_all(&self, groups: &mut [Group], by: &[f64]) {
+    pub(crate) fn displace_all(&self, groups: &mut [Group], by: &[f64]) {
         for (group, first) in groups.iter_mut().zip(&self.offsets) {
             for k in 0..group.bodies.stations() {
                 let at = (first + k) * PER_STATION;
@@ -155,16 +169,16 @@ impl Unknowns {
 }
 
 /// Which combinations of a station's unknowns are free: the projection that the boundary conditions make of rates.
-pub(super) struct Freedom {
+pub(crate) struct Freedom {
     /// One projection a station.
-    pub(super) free: Vec<Matrix6<f64>>,
+    pub(crate) free: Vec<Matrix6<f64>>,
     /// Stations of which nothing is held.
     all: Vec<bool>,
 }
 
 impl Freedom {
     /// Asks every boundary condition by giving unit rates to all stations, one unknown at a time.
-    pub(super) fn of(system: &mut System, unknowns: &Unknowns) -> Result<Self, String> {
+    pub(crate) fn of(system: &mut System, unknowns: &Unknowns) -> Result<Self, String> {
         let none = probe(system, unknowns, None);
         let mut free = vec![Matrix6::zeros(); unknowns.stations];
         for j in 0..PER_STATION {
@@ -197,12 +211,12 @@ impl Freedom {
     }
 
     /// Whether nothing of a station is held.
-    pub(super) fn is_all(&self, station: usize) -> bool {
+    pub(crate) fn is_all(&self, station: usize) -> bool {
         self.all[station]
     }
 
     /// Leaves of each station's six what is free.
-    pub(super) fn project(&self, values: &mut [f64]) {
+    pub(crate) fn project(&self, values: &mut [f64]) {
         for (station, values) in values.chunks_exact_mut(PER_STATION).enumerate() {
             if !self.all[station] {
                 let free = self.free[station] * Vector6::from_column_slice(values);
