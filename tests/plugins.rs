@@ -52,6 +52,7 @@ const SHIPPED: [(&str, &str); 70] = [
     ("effects", "ThermalDrift"),
     ("effects", "TimeOffset"),
     ("effects", "TwistDependentStiffness"),
+    ("effects", "Unknown"),
     ("effects", "ViscoelasticCreep"),
     ("forcing", "EndForce"),
     ("forcing", "EndTorque"),
@@ -78,6 +79,7 @@ const SHIPPED: [(&str, &str); 70] = [
     ("laws", "Nonlinear"),
     ("laws", "PermanentSet"),
     ("laws", "Stiffness"),
+    ("laws", "StrainEnergy"),
 ];
 
 /// Widest line printed where there is no terminal.

@@ -213,7 +213,8 @@ impl Draw<'_> {
                 values: vec![(String::new(), value)],
             });
         }
-        let known = <dyn Effect>::all();
+        let mut known = <dyn Effect>::all();
+        known.retain(|effect| effect.is_cause());
         let count = match kind {
             Kind::Control => 0,
             Kind::Single | Kind::Foreign => 1,

@@ -5,6 +5,7 @@ use super::{ChallengeError, NOMINAL, RECORDINGS, SEAL, TRUTH, hash};
 use crate::config::Source;
 use crate::diagnose::verdict::{Diagnosis, Kind};
 use crate::diagnose::{Request, diagnose, oracle};
+use crate::identify::Effect;
 use rayon::prelude::*;
 use statrs::statistics::{Data, Median};
 use std::path::{Path, PathBuf};
@@ -125,6 +126,13 @@ pub fn score(
     Ok((results, tally))
 }
 
+/// Whether nothing but a law that describes was named, which gives the mismatch to no cause.
+fn describes(said: &[String]) -> bool {
+    let effects = <dyn Effect>::all();
+    let is_cause = |id: &String| effects.iter().any(|e| e.id() == id && e.is_cause());
+    !said.is_empty() && !said.iter().any(is_cause)
+}
+
 /// Folders of a case's recordings: to train on, and to judge by.
 fn recordings(case: &Path) -> [Vec<PathBuf>; 2] {
     let (train, holdout) = RECORDINGS.split_at(2);
@@ -177,7 +185,7 @@ fn judge(truth: Truth, said: &Diagnosis, oracle: Option<f64>) -> Result {
     let claimed = said.verdict != Kind::Unexplained;
     let right = match truth.effects.len() {
         0 => said.verdict == Kind::None,
-        1 if truth.effects[0].id == Concealed::FOREIGN => said.verdict == Kind::Unexplained,
+        1 if truth.effects[0].id == Concealed::FOREIGN => !claimed || describes(&ids),
         _ => claimed && truth.effects.iter().all(|e| ids.contains(&e.id)),
     };
     let first = said.effects.first().filter(|_| claimed);
@@ -225,8 +233,8 @@ impl Tally {
                 }
                 1 if foreign && visible => {
                     tally.foreigners.0 += 1;
-                    let warned = [Kind::Unexplained, Kind::None];
-                    tally.foreigners.1 += usize::from(!warned.contains(&r.verdict));
+                    let warned = [Kind::Unexplained, Kind::None].contains(&r.verdict);
+                    tally.foreigners.1 += usize::from(!warned && !describes(&r.said));
                 }
                 1 if visible && !foreign => {
                     let id = &r.truth.effects[0].id;
