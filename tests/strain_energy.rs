@@ -150,10 +150,7 @@ fn odd_powers_of_shear_or_curvature_are_refused() {
             "give an even power of 8 at most",
         ),
         ("coefficient: 1, curvature: 3", "terms[0].curvature is 3"),
-        (
-            "coefficient: 1, twist: 9",
-            "give a power of 8 at most",
-        ),
+        ("coefficient: 1, twist: 9", "give a power of 8 at most"),
         ("coefficient: 1", "terms[0] depends on no strain"),
     ] {
         let text = format!(

@@ -19,12 +19,12 @@ const STRAINS: [(&str, f64); 4] = [
     ("shear", 0.05),
     ("elongation", 0.05),
     ("curvature", 0.3),
-    ("twist", 2.5),
+    ("twist", 1.5),
 ];
 /// Energy per length at such strains [N].
-const TYPICAL: f64 = 0.05;
+const TYPICAL: f64 = 0.01;
 /// Times that beyond which a coefficient isn't tried.
-const MOST: f64 = 100.0;
+const MOST: f64 = 500.0;
 /// Degrees of the monomials: less than cubic ones are linear laws, which are in the library.
 const DEGREES: std::ops::RangeInclusive<usize> = 3..=4;
 

@@ -79,7 +79,11 @@ impl Term {
         let bending = c * s * e * k_slope * t;
         [
             Vector3::new(across * sigma.x, across * sigma.y, c * s * e_slope * k * t),
-            Vector3::new(bending * kappa.x, bending * kappa.y, c * s * e * k * t_slope),
+            Vector3::new(
+                bending * kappa.x,
+                bending * kappa.y,
+                c * s * e * k * t_slope,
+            ),
         ]
     }
 }

@@ -204,7 +204,9 @@ fn noticeable(
     let causes = (0..forms.len()).filter(|form| effects[forms[*form].effect].is_cause());
     let found = search::noticeable(trial, &baseline.fit, forms, causes.collect(), most);
     let notice = |(form, share): (usize, f64)| {
-        let Form { effect, variant, .. } = &forms[form];
+        let Form {
+            effect, variant, ..
+        } = &forms[form];
         let makes = |q: &&Quantity| q.absent_where_large() || (q.typical - q.null).abs() > 1e-12;
         let k = variant.quantities.iter().position(|q| makes(&q))?;
         let q = &variant.quantities[k];

@@ -159,12 +159,10 @@ fn kind(kind: Kind) -> &'static str {
 }
 
 fn number(p: &Estimated) -> String {
+    let [value, interval] = p.figures();
     format!(
-        "<td>{}</td><td>{:.4}</td><td>{:.4} .. {:.4}</td><td>{}</td>",
+        "<td>{}</td><td>{value}</td><td>{interval}</td><td>{}</td>",
         escaped(&p.name),
-        p.value,
-        p.ci95[0],
-        p.ci95[1],
         escaped(&p.unit)
     )
 }
