@@ -7,7 +7,7 @@ use auxetica::config::{Plugin, options, plugins};
 use program::works;
 
 /// A crate that isn't linked, a plugin that is renamed or one that is new shows here.
-const SHIPPED: [(&str, &str); 70] = [
+const SHIPPED: [(&str, &str); 72] = [
     ("boundary", "Clamp"),
     ("boundary", "Hold"),
     ("boundary", "MotorAngle"),
@@ -52,6 +52,7 @@ const SHIPPED: [(&str, &str); 70] = [
     ("effects", "ThermalDrift"),
     ("effects", "TimeOffset"),
     ("effects", "TwistDependentStiffness"),
+    ("effects", "Unknown"),
     ("effects", "ViscoelasticCreep"),
     ("forcing", "EndForce"),
     ("forcing", "EndTorque"),
@@ -78,6 +79,7 @@ const SHIPPED: [(&str, &str); 70] = [
     ("laws", "Nonlinear"),
     ("laws", "PermanentSet"),
     ("laws", "Stiffness"),
+    ("laws", "StrainEnergy"),
 ];
 
 /// Widest line printed where there is no terminal.

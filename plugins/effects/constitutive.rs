@@ -106,7 +106,7 @@ effect!(
 );
 
 /// A law for all rods whose sign goes with the handedness: `{0}` right-handed, the second text left-handed.
-fn handed(robot: &Robot, variant: Variant, right: &str, left: &str) -> Variant {
+pub(crate) fn handed(robot: &Robot, variant: Variant, right: &str, left: &str) -> Variant {
     let of = |sign: f64| -> Vec<&String> {
         let rods = robot.rods.iter().zip(&robot.handed);
         rods.filter(|(_, h)| **h * sign > 0.0)

@@ -5,6 +5,7 @@ mod constitutive;
 mod forcing;
 mod joint;
 mod recording;
+mod unknown;
 
 /// Registers an effect: its type, id, part of the model, words, equation, experiment, source and variants.
 macro_rules! effect {

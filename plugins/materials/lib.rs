@@ -14,6 +14,7 @@ mod motor_compliance;
 mod nonlinear;
 mod permanent_set;
 mod stiffness;
+mod strain_energy;
 
 pub use base_compliance::BaseCompliance;
 pub use coupling::Coupling;
@@ -27,3 +28,4 @@ pub use motor_compliance::MotorCompliance;
 pub use nonlinear::Nonlinear;
 pub use permanent_set::PermanentSet;
 pub use stiffness::Stiffness;
+pub use strain_energy::StrainEnergy;

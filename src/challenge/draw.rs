@@ -177,11 +177,12 @@ impl Draw<'_> {
             Ok(effect)
         });
         let chosen: Vec<_> = chosen.collect::<Result<_, _>>()?;
-        Ok(if chosen.is_empty() {
-            <dyn Effect>::all()
-        } else {
-            chosen
-        })
+        if chosen.is_empty() {
+            let mut all = <dyn Effect>::all();
+            all.retain(|effect| effect.is_cause());
+            return Ok(all);
+        }
+        Ok(chosen)
     }
 
     /// Recordings of the robot as it is and with what is concealed.

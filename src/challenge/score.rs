@@ -132,6 +132,13 @@ pub fn score(
     Ok((results, tally))
 }
 
+/// Whether nothing but a law that describes was named, which gives the mismatch to no cause.
+fn describes(said: &[String]) -> bool {
+    let effects = <dyn Effect>::all();
+    let is_cause = |id: &String| effects.iter().any(|e| e.id() == id && e.is_cause());
+    !said.is_empty() && !said.iter().any(is_cause)
+}
+
 /// Folders of a case's recordings: to train on, and to judge by.
 fn recordings(case: &Path) -> std::result::Result<[Vec<PathBuf>; 2], ChallengeError> {
     let mut folders = folders(case)?;
@@ -229,7 +236,7 @@ fn judge(
     let claimed = truth.real || said.verdict != Kind::Unexplained;
     let right = match truth.effects.len() {
         0 => said.verdict == Kind::None,
-        1 if truth.effects[0].id == Concealed::FOREIGN => said.verdict == Kind::Unexplained,
+        1 if truth.effects[0].id == Concealed::FOREIGN => !claimed || describes(&ids),
         _ => claimed && truth.effects.iter().all(|e| ids.contains(&e.id)),
     };
     let first = said.effects.first().filter(|_| claimed);
@@ -281,7 +288,7 @@ impl Tally {
                 }
                 1 if foreign && visible => {
                     tally.foreigners.0 += 1;
-                    tally.foreigners.1 += usize::from(!warned(r.verdict));
+                    tally.foreigners.1 += usize::from(!warned(r.verdict) && !describes(&r.said));
                 }
                 1 if visible && !foreign => {
                     let id = &r.truth.effects[0].id;

@@ -32,8 +32,9 @@ pub(super) fn conclude(
     };
     let effect = |form: usize| &effects[forms[form].effect];
     let worsened = last.scores.worsened(&baseline.scores);
-    let hook = |form| effect(form).hook();
-    let kind = kind(baseline, last, (explained, !worsened.is_empty()), hook);
+    let mut all: Vec<&dyn Effect> = last.named.iter().map(|(f, _)| &**effect(*f)).collect();
+    all.dedup_by_key(|effect| effect.id());
+    let kind = kind(baseline, last, (explained, !worsened.is_empty()), &all);
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
     let alike: Vec<&dyn Effect> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
@@ -118,18 +119,21 @@ fn kind(
     baseline: &Standing<'_>,
     last: &Standing<'_>,
     (explained, worsens): (f64, bool),
-    hook: impl Fn(usize) -> Hooked,
+    named: &[&dyn Effect],
 ) -> Kind {
-    match last.named[..] {
+    let left = last.mean_square();
+    match named {
         _ if baseline.mean_square() < SOUND => Kind::None,
         [] => Kind::Unexplained,
         // what is left is noise, however little there was to explain
-        _ if explained < EXPLAINED && last.mean_square() >= SOUND => Kind::Unexplained,
-        _ if worsens || last.mean_square() > LEFT => Kind::Unexplained,
+        _ if explained < EXPLAINED && left >= SOUND => Kind::Unexplained,
+        _ if worsens || left > LEFT => Kind::Unexplained,
         // so many, and still not all of it: they imitate something else
-        _ if last.named.len() == MOST && last.mean_square() >= SOUND => Kind::Unexplained,
+        _ if named.len() == MOST && left >= SOUND => Kind::Unexplained,
+        // what only describes explains nothing unless it leaves nothing
+        _ if named.iter().any(|e| !e.is_cause()) && left >= SOUND => Kind::Unexplained,
         [_] if !last.alternatives.is_empty() => Kind::Class,
-        [(form, _)] if hook(form) == Hooked::Recording => Kind::Recording,
+        [effect] if effect.hook() == Hooked::Recording => Kind::Recording,
         [_] => Kind::Effect,
         _ => Kind::Several,
     }
@@ -163,7 +167,8 @@ fn estimates(standing: &Standing<'_>) -> Vec<Estimated> {
     names.enumerate().map(estimate).collect()
 }
 
-/// The named effects; `estimates` are those of their numbers, one after the other.
+/// The named effects; `estimates` are those of their numbers, one after the other. Terms of a law that only describes are
+/// one effect.
 fn name_all(
     last: &Standing<'_>,
     forms: &[Form],
@@ -172,25 +177,37 @@ fn name_all(
     baseline: &Standing<'_>,
 ) -> Vec<Named> {
     let gain = baseline.scores.train_mm() - last.scores.train_mm();
-    let name = |(form, probability): &(usize, f64)| {
+    let mut all: Vec<Named> = Vec::new();
+    for (form, probability) in &last.named {
         let (effect, variant) = (&effects[forms[*form].effect], &forms[*form].variant);
         let parameters = estimates.split_off(..variant.quantities.len());
         let parameters = parameters.expect("each number has an estimate").to_vec();
-        let words = match variant.name.as_str() {
-            "" => effect.words().to_owned(),
-            which => format!("{} ({which})", effect.words()),
-        };
-        Named {
+        let mut named = Named {
             id: effect.id().to_owned(),
-            words,
+            words: match variant.name.as_str() {
+                "" => effect.words().to_owned(),
+                which => format!("{} ({which})", effect.words()),
+            },
             equation: effect.equation().to_owned(),
             hook: effect.hook(),
             parameters,
             probability: *probability,
             gain_mm: gain,
+        };
+        if !effect.is_cause() {
+            if let Some(before) = all.pop_if(|before| before.id == named.id) {
+                named.equation = before.equation + " +";
+                named.probability = named.probability.min(before.probability);
+                named.parameters.splice(0..0, before.parameters);
+            }
+            if let Some(p) = named.parameters.last() {
+                named.equation += &format!(" {:.3e} {} * {}", p.value, p.unit, variant.name);
+            }
+            named.words = format!("{}: {}", effect.words(), named.equation);
         }
-    };
-    last.named.iter().map(name).collect()
+        all.push(named);
+    }
+    all
 }
 
 /// How much of the effects' mark the calibration had taken up, and which number most of it.
@@ -223,9 +240,12 @@ fn noticeable(
 ) -> Vec<Noticeable> {
     let trial = &baseline.trial;
     let most = (SOUND - 1.0) * trial.measured();
-    let found = search::noticeable(trial, &baseline.fit, forms, most);
+    let causes = (0..forms.len()).filter(|form| effects[forms[*form].effect].is_cause());
+    let found = search::noticeable(trial, &baseline.fit, forms, causes.collect(), most);
     let notice = |(form, share): (usize, f64)| {
-        let Form { effect, variant } = &forms[form];
+        let Form {
+            effect, variant, ..
+        } = &forms[form];
         let makes = |q: &&Quantity| q.absent_where_large() || (q.typical - q.null).abs() > 1e-12;
         let k = variant.quantities.iter().position(|q| makes(&q))?;
         let q = &variant.quantities[k];

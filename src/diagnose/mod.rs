@@ -28,7 +28,7 @@ use crate::config::{Problems, Source};
 use crate::identify::{Effect, Parameter, Robot};
 pub use oracle::oracle;
 use samples::Samples;
-use standing::Standing;
+use standing::{Among, Standing};
 use std::path::PathBuf;
 use trial::Trial;
 use verdict::Diagnosis;
@@ -43,6 +43,8 @@ const ODDS: f64 = 6.0;
 const MOST: usize = 3;
 /// Most searches for a further effect; one may make another needless.
 const ROUNDS: usize = 4;
+/// Most terms of a law that only describes.
+const TERMS: usize = 3;
 /// Mean squared residual of the calibrated scenario beyond which noise doesn't tell how much a channel counts.
 const FAR_OFF: f64 = 500.0;
 /// Samples of a recording that are enough then, since what is modelled badly shows in neighbours alike.
@@ -115,22 +117,65 @@ pub fn diagnose(
         weighed = true;
     };
     told(0.1);
+    let mut among = Among {
+        forms: &forms,
+        effects: &effects,
+        causes: true,
+    };
     let mut last = baseline.clone();
     for round in 0..ROUNDS {
         if last.mean_square() < SOUND || last.named.len() == MOST {
             break;
         }
-        let share = |done: f64| told(0.1 + 0.85 * (round as f64 + done) / ROUNDS as f64);
-        let Some(next) = last.grown(&forms, &holdout, &share)? else {
+        let share = |done: f64| told(0.1 + 0.6 * (round as f64 + done) / ROUNDS as f64);
+        let Some(next) = last.grown(&among, &holdout, &share)? else {
             break;
         };
         last = next;
+    }
+    if last.mean_square() > LEFT {
+        among.causes = false;
+        let share = |done: f64| told(0.7 + 0.25 * done);
+        last = described(&baseline, last, &among, &holdout, &share)?;
     }
     let augmented = last.scenario()?;
     let mut diagnosis = conclusion::conclude(&baseline, &last, &forms, &effects, &holdout);
     diagnosis.seconds = start.elapsed().as_secs_f64();
     told(1.0);
     Ok((diagnosis, augmented))
+}
+
+/// What is left described by a law, term by term, if that does better: on top of the causes that are named, or in place of
+/// them, since several that explain little may imitate one law.
+fn described<'a>(
+    baseline: &Standing<'a>,
+    last: Standing<'a>,
+    among: &Among<'a, '_>,
+    holdout: &[Samples],
+    told: &(dyn Fn(f64) + Sync),
+) -> Result<Standing<'a>, DiagnoseError> {
+    let grown = |from: &Standing<'a>, least: f64, part: f64| {
+        let mut now = from.clone();
+        for term in 0..TERMS {
+            let share = |done: f64| told(part + (term as f64 + done) / (2 * TERMS) as f64);
+            let next = now.grown(among, holdout, &share)?;
+            let Some(next) = next.filter(|next| next.mean_square() < least) else {
+                break;
+            };
+            now = next;
+            if now.mean_square() < SOUND {
+                break;
+            }
+        }
+        Ok::<_, DiagnoseError>(now)
+    };
+    if !last.named.is_empty() {
+        let instead = grown(baseline, last.mean_square(), 0.0)?;
+        if instead.mean_square() < SOUND {
+            return Ok(instead);
+        }
+    }
+    grown(&last, f64::INFINITY, 0.5)
 }
 
 /// Something that scenario and recordings can't do together.
@@ -165,6 +210,7 @@ fn read(request: &Request<'_>) -> Result<(Vec<Samples>, Vec<Samples>), DiagnoseE
     Ok((train, holdout))
 }
 
+/// Effects of these identifiers, or all.
 fn chosen(ids: &[String]) -> Result<Vec<Box<dyn Effect>>, DiagnoseError> {
     let mut effects = <dyn Effect>::all();
     if !ids.is_empty() {

@@ -278,10 +278,8 @@ fn list<'a>(items: impl Iterator<Item = &'a str>) -> String {
 }
 
 fn value(p: &Estimated) -> String {
-    format!(
-        "<td>{:.4}</td><td class=\"interval\">{:.4} .. {:.4}</td>",
-        p.value, p.ci95[0], p.ci95[1]
-    )
+    let [value, interval] = p.figures();
+    format!("<td>{value}</td><td class=\"interval\">{interval}</td>")
 }
 
 fn escaped(text: &str) -> String {

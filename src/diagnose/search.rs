@@ -14,6 +14,8 @@ pub struct Form {
     pub effect: usize,
     /// The form.
     pub variant: Variant,
+    /// Forms of one group exclude each other: those of a cause, while each term of a law that only describes is for itself.
+    pub group: (usize, usize),
 }
 
 /// All forms of the effects that can act on a robot.
@@ -21,8 +23,12 @@ pub struct Form {
 pub fn forms(effects: &[Box<dyn Effect>], robot: &Robot) -> Vec<Form> {
     let each = effects.iter().enumerate();
     each.flat_map(|(effect, e)| {
-        let variants = e.variants(robot).into_iter();
-        variants.map(move |variant| Form { effect, variant })
+        let variants = e.variants(robot).into_iter().enumerate();
+        variants.map(move |(which, variant)| Form {
+            effect,
+            variant,
+            group: (effect, if e.is_cause() { 0 } else { which }),
+        })
     })
     .collect()
 }
@@ -37,9 +43,9 @@ pub struct Candidate {
     pub fit: Linear,
 }
 
-/// How many forms are fitted in a round, and how many of one effect.
+/// How many forms are fitted in a round, and how many of one group.
 const FITTED: usize = 10;
-const OF_EFFECT: usize = 2;
+const OF_GROUP: usize = 2;
 /// Times the least promised chi2 beyond which forms are not fitted, but so many are in any case.
 const POOR: f64 = 30.0;
 const AT_LEAST: usize = 4;
@@ -56,18 +62,15 @@ const ON_THE_WAY: [f64; 2] = [0.3, 0.08];
 /// Times the present chi2 at which no fit begins.
 const FAR: f64 = 20.0;
 
-/// Fits the forms that promise most when they are added to `base`, the best first.
+/// Fits those of the `open` forms that promise most when they are added to `base`, the best first.
 pub fn round(
     base: &Trial<'_>,
     here: &Linear,
     forms: &[Form],
-    used: &[usize],
+    open: Vec<usize>,
     told: &(dyn Fn(f64) + Sync),
 ) -> Vec<Candidate> {
-    let open = (0..forms.len()).filter(|f| !used.contains(&forms[*f].effect));
-    let promises = screen(base, here, forms, open.collect(), &|share| {
-        told(0.3 * share)
-    });
+    let promises = screen(base, here, forms, open, &|share| told(0.3 * share));
     let chosen = shortlist(promises, here, forms);
     let told = Counted::new(told, 0.3, 0.5);
     let begun = chosen.par_iter().filter_map(|promise| {
@@ -150,17 +153,17 @@ fn linearised<'a>(
     columns.collect()
 }
 
-/// The best forms of each of the best effects.
+/// The best forms of each of the best groups.
 fn shortlist(promises: Vec<Promise>, here: &Linear, forms: &[Form]) -> Vec<Promise> {
     let mut chosen: Vec<Promise> = Vec::new();
     for promise in promises {
-        let same = |p: &&Promise| forms[p.form].effect == forms[promise.form].effect;
+        let same = |p: &&Promise| forms[p.form].group == forms[promise.form].group;
         let best = chosen.first().map_or(f64::INFINITY, |best| best.left);
         let poor = promise.left > (POOR * best).min(NO_GAIN * here.chi2());
         if poor && chosen.len() >= AT_LEAST {
             break;
         }
-        if chosen.len() < FITTED && chosen.iter().filter(same).count() < OF_EFFECT {
+        if chosen.len() < FITTED && chosen.iter().filter(same).count() < OF_GROUP {
             chosen.push(promise);
         }
     }
@@ -294,15 +297,16 @@ impl Column<'_> {
     }
 }
 
-/// For each effect, its form that is noticed first, and the share of its typical strength from which it would be: the
+/// For each effect of these forms, the one that is noticed first, and the share of its typical strength from which it would be: the
 /// squared residuals grow by `most` whatever the scenario's own numbers are.
 pub fn noticeable(
     trial: &Trial<'_>,
     here: &Linear,
     forms: &[Form],
+    which: Vec<usize>,
     most: f64,
 ) -> Vec<(usize, f64)> {
-    let columns = linearised(trial, here, forms, (0..forms.len()).collect(), &|_| ());
+    let columns = linearised(trial, here, forms, which, &|_| ());
     let noticed = |column: &Column<'_>| (column.form, column.noticed(here, most));
     let mut found: Vec<(usize, f64)> = columns.par_iter().map(noticed).collect();
     found.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));

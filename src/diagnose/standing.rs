@@ -8,7 +8,7 @@ use super::shared::{self, Shared};
 use super::trial::{DAMPING, Linear, Trial};
 use super::{DiagnoseError, LEFT, ODDS, unfit};
 use crate::config::Source;
-use crate::identify::Variant;
+use crate::identify::{Effect, Variant};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -27,6 +27,22 @@ const ALIKE: f64 = 0.1;
 const PLAINLY_WORSE: f64 = 2.0;
 /// Steps of the calibration, and of fits that begin near their end.
 const STEPS: (usize, usize) = (12, 4);
+
+/// What a search goes through.
+pub(super) struct Among<'a, 'b> {
+    /// All forms.
+    pub(super) forms: &'a [Form],
+    /// Their effects.
+    pub(super) effects: &'b [Box<dyn Effect>],
+    /// Whether causes are sought, or terms that only describe.
+    pub(super) causes: bool,
+}
+
+impl Among<'_, '_> {
+    fn is_cause(&self, form: usize) -> bool {
+        self.effects[self.forms[form].effect].is_cause()
+    }
+}
 
 /// A fitted model and what it was chosen among.
 #[derive(Clone)]
@@ -117,18 +133,21 @@ impl<'a> Standing<'a> {
         (self.tolerant.chi2() - self.trial.measured()).max(0.0)
     }
 
-    /// The same with one more effect, if there is one that is worth it.
+    /// The same with one more form of those that `among` allows, if there is one that is worth it.
     ///
     /// # Errors
     /// If a scenario has no steady state at a sample.
     pub(super) fn grown(
         &self,
-        forms: &'a [Form],
+        among: &Among<'a, '_>,
         holdout: &[Samples],
         told: &(dyn Fn(f64) + Sync),
     ) -> Result<Option<Self>, DiagnoseError> {
-        let used: Vec<usize> = self.named.iter().map(|(f, _)| forms[*f].effect).collect();
-        let found = search::round(&self.trial, &self.fit, forms, &used, told);
+        let forms = among.forms;
+        let used = |group| self.named.iter().any(|(f, _)| forms[*f].group == group);
+        let open = |f: &usize| !used(forms[*f].group) && among.is_cause(*f) == among.causes;
+        let open = (0..forms.len()).filter(open).collect();
+        let found = search::round(&self.trial, &self.fit, forms, open, told);
         let much = self.named.is_empty() || self.mean_square() > LEFT;
         let gain = match much {
             _ if self.trial.data[0].weighed() => GAIN_FAR_OFF,
@@ -143,11 +162,15 @@ impl<'a> Standing<'a> {
             if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
                 break;
             }
-            if let Some(next) = self.joined(best, (probability, alike), forms, holdout)? {
+            let next = self.joined(best, (probability, alike), forms, holdout)?;
+            // what is no cause has nothing to say for itself but that it does well throughout
+            let does_well =
+                |next: &Self| among.causes || next.scores.worsened(&self.scores).is_empty();
+            if let Some(next) = next.filter(does_well) {
                 return Ok(Some(next));
             }
-            let refused = forms[best.form].effect;
-            found.retain(|(_, c)| forms[c.form].effect != refused);
+            let refused = forms[best.form].group;
+            found.retain(|(_, c)| forms[c.form].group != refused);
         }
         Ok(None)
     }
@@ -196,7 +219,7 @@ impl<'a> Standing<'a> {
         }
         let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
         let alternative = |c: &Candidate| {
-            let Form { effect, variant } = &forms[c.form];
+            let Form { effect, variant, .. } = &forms[c.form];
             Alternative {
                 effect: *effect,
                 model: (self.trial.with(variant), c.fit.at.clone()),
@@ -229,26 +252,26 @@ impl<'a> Standing<'a> {
         let mut ranked: Vec<_> = (found.into_iter()).map(|c| (cost(c), c.0, &c.1)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (best_cost, best_left, best) = ranked[0];
-        let mut weights: Vec<(usize, f64)> = Vec::new();
+        let mut weights = Vec::new();
         let mut alike = Vec::new();
         for (cost, left, candidate) in &ranked {
-            let effect = forms[candidate.form].effect;
-            if weights.iter().any(|(e, _)| *e == effect) {
+            let Form { effect, group, .. } = forms[candidate.form];
+            if weights.iter().any(|(g, _)| *g == group) {
                 continue;
             }
             let same = cost - best_cost < ODDS || *left < (1.0 + ALIKE) * best_left;
+            if same && effect != forms[best.form].effect {
+                alike.push(*candidate);
+            }
             // those that can't be told apart are as likely
             let weight = if same {
-                alike.push(*candidate);
                 1.0
             } else {
                 (-(cost - best_cost) / 2.0).exp()
             };
-            weights.push((effect, weight));
+            weights.push((group, weight));
         }
         let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
-        // the best is the first of them
-        alike.remove(0);
         Some((best, 1.0 / total, alike))
     }
 }

@@ -155,6 +155,19 @@ pub struct Estimated {
     pub ci95: [f64; 2],
 }
 
+impl Estimated {
+    /// Value and interval, however small they are.
+    #[must_use]
+    pub fn figures(&self) -> [String; 2] {
+        let figure = |x: f64| match x.abs() {
+            size if size > 0.0 && size < 0.01 => format!("{x:.3e}"),
+            _ => format!("{x:.4}"),
+        };
+        let [low, high] = self.ci95.map(figure);
+        [figure(self.value), format!("{low} .. {high}")]
+    }
+}
+
 /// Another effect that explains nearly as much.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Alternative {

@@ -225,7 +225,7 @@ pub trait Effect: Send + Sync {
     fn id(&self) -> &'static str;
     /// What it is, in a sentence for a roboticist.
     fn words(&self) -> &'static str;
-    /// Its equation.
+    /// Its equation; what its terms follow if it is no cause.
     fn equation(&self) -> &'static str;
     /// Which part of the model it belongs to.
     fn hook(&self) -> Hooked;
@@ -233,6 +233,11 @@ pub trait Effect: Send + Sync {
     fn variants(&self, robot: &Robot) -> Vec<Variant>;
     /// The experiment that tells it from what looks like it.
     fn experiment(&self) -> &'static str;
+    /// Whether it is a cause. What is none only describes: its forms are terms of a law, of which several may be taken, and
+    /// they are tried where no cause explains the mismatch.
+    fn is_cause(&self) -> bool {
+        true
+    }
 }
 
 impl Hook for dyn Effect {
@@ -241,7 +246,7 @@ impl Hook for dyn Effect {
 }
 
 impl dyn Effect {
-    /// Every effect that is linked into this program, by id.
+    /// Every effect that is linked into this program, those that only describe included, by id.
     ///
     /// # Panics
     /// If an effect's own example does not build; a test holds that it does.

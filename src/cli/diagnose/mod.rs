@@ -210,10 +210,8 @@ fn show(d: &Diagnosis) -> String {
 
 fn numbers(parameters: &[Estimated]) -> String {
     let line = |p: &Estimated| {
-        format!(
-            "  {} = {:.4} ({:.4} .. {:.4}) {}\n",
-            p.name, p.value, p.ci95[0], p.ci95[1], p.unit
-        )
+        let [value, interval] = p.figures();
+        format!("  {} = {value} ({interval}) {}\n", p.name, p.unit)
     };
     parameters.iter().map(line).collect()
 }

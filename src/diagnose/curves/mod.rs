@@ -43,7 +43,9 @@ pub fn diagnose_curves(
 ) -> Result<(CurvesDiagnosis, Vec<Source>), DiagnoseError> {
     let start = std::time::Instant::now();
     let rods = rods(request)?;
-    let effects = chosen(request.effects)?;
+    let mut effects = chosen(request.effects)?;
+    // a law that only describes is for robots
+    effects.retain(|effect| effect.is_cause());
     let all = |rod: &Rod, own: &[f64]| rod.compared(own, None, &rod.curves);
     let free = each(&rods, |_, rod| {
         rod.calibrated(&rod.stated(), None, &rod.curves)
