@@ -23,7 +23,7 @@ fn recordings() -> tempfile::TempDir {
     let recording = recorded(&source, &robot).unwrap_or_else(|e| panic!("{e}"));
     let folder = tempfile::tempdir().expect("a folder");
     for name in ["a", "b", "c"] {
-        recording.write(&folder.path().join(name)).expect("written");
+        recording.write(folder.path().join(name)).expect("written");
     }
     for target in TARGETS {
         fs::write(folder.path().join(target), "as it was").expect("written");

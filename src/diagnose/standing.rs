@@ -219,7 +219,9 @@ impl<'a> Standing<'a> {
         }
         let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
         let alternative = |c: &Candidate| {
-            let Form { effect, variant, .. } = &forms[c.form];
+            let Form {
+                effect, variant, ..
+            } = &forms[c.form];
             Alternative {
                 effect: *effect,
                 model: (self.trial.with(variant), c.fit.at.clone()),

@@ -232,7 +232,7 @@ fn ends(angles: &[[f64; 4]]) -> Vec<[f64; 4]> {
         let furthest = angles
             .iter()
             .max_by(|a, b| feature(a).total_cmp(&feature(b)));
-        let new = |end: &&[f64; 4]| moved(*end) && !ends.contains(end);
+        let new = |end: &&[f64; 4]| moved(end) && !ends.contains(end);
         if let Some(end) = furthest.filter(new) {
             ends.push(*end);
         }
