@@ -53,8 +53,10 @@ fn concealing(entry: Option<&str>) -> tempfile::TempDir {
             scenario: {shipped:?}, seed: 5,
             controls: {controls}, singles: 0, doubles: 0, foreigners: {foreigners},
             mesh: ("rods[0].elements", 14, 14), strength: (1, 1),
-            set_points: 8, angle: 6, speed: 1.05, hold: 1.5, rate: 9.26,
-            noise: (5e-5, 5e-4), bias: (1e-5, 1e-4), jitter: 2e-3,
+            recordings: Simulated(
+                set_points: 8, angle: 6, speed: 1.05, hold: 1.5, rate: 9.26,
+                noise: (5e-5, 5e-4), bias: (1e-5, 1e-4), jitter: 2e-3,
+            ),
             foreign: [(words: "a law", list: "laws", entry: {entry:?}, range: (1, 1))],
         )"#,
         entry = entry.unwrap_or_default()
