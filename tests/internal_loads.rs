@@ -5,7 +5,7 @@
 mod common;
 
 use auxetica::engine::{BoundaryCondition, Moment, PoseView, RateView, ReadBody, rotation};
-use common::model;
+use common::{deform, model};
 use nalgebra::{Matrix3, Vector3};
 
 /// Puts the rod into a wavy pose: rotations of `size` [rad] between neighbours, about `d2` alone in the plane.
@@ -46,14 +46,7 @@ fn resultants(size: f64, plane: bool) -> (f64, f64) {
             solver: Dynamic(duration: 1),
         )"#,
     );
-    let id = model.system.ids()[0];
-    let deform = Box::new(Deform { size, plane });
-    model
-        .system
-        .add_boundary(id, "deform", deform)
-        .expect("a free rod can be deformed");
-    model.system.apply_boundaries();
-    model.system.evaluate();
+    let id = deform(&mut model, Box::new(Deform { size, plane }));
     let body = model.system.body(id);
     let (mut force, mut moment, mut sizes) = (Vector3::zeros(), Vector3::zeros(), (0.0, 0.0));
     for i in 0..body.nodes() {

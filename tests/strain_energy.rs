@@ -3,7 +3,7 @@
 mod common;
 
 use auxetica::engine::{BoundaryCondition, Moment, PoseView, RateView, ReadBody, rotation};
-use common::model;
+use common::{deform, model};
 use nalgebra::{Matrix3, Vector3};
 
 /// Puts the rod into a wavy pose, and moves it from there along a direction of all its nodes and frames.
@@ -68,14 +68,7 @@ fn strained(along: f64) -> Strained {
             solver: Dynamic(duration: 1),
         )"#
     ));
-    let id = model.system.ids()[0];
-    let deform = Box::new(Deform { along });
-    model
-        .system
-        .add_boundary(id, "deform", deform)
-        .expect("a free rod can be deformed");
-    model.system.apply_boundaries();
-    model.system.evaluate();
+    let id = deform(&mut model, Box::new(Deform { along }));
     let body = model.system.body(id);
     let element = |e| (body.sigma(e), body.rest_length(e), body.stress(e));
     let cell = |v| (body.kappa(v), body.rest_voronoi(v), body.couple(v));

@@ -36,8 +36,9 @@ pub struct Result {
     pub values: Vec<(f64, bool)>,
     /// Held-out position error of the improved model over that of the true effect's model.
     pub over_oracle: Option<f64>,
-    /// The verdict without the true effects in the library, if that was asked for.
-    pub hidden: Option<Kind>,
+    /// The verdict without the true effects in the library, and whether they are given to another then, if that was asked
+    /// for.
+    pub hidden: Option<(Kind, bool)>,
     /// Time it took \[s\].
     pub seconds: f64,
 }
@@ -83,6 +84,7 @@ pub fn score(
 ) -> std::result::Result<(Vec<Result>, Tally), ChallengeError> {
     let nominal = Source::load(&folder.join(NOMINAL), &[])?;
     let mut cases = folders(folder)?;
+    cases.retain(|case| recordings(case).is_ok_and(|[train, _]| !train.is_empty()));
     cases.sort();
     let done = AtomicUsize::new(0);
     cases.par_iter().try_for_each(|case| {
@@ -137,6 +139,18 @@ fn describes(said: &[String]) -> bool {
     let effects = <dyn Effect>::all();
     let is_cause = |id: &String| effects.iter().any(|e| e.id() == id && e.is_cause());
     !said.is_empty() && !said.iter().any(is_cause)
+}
+
+/// Whether a mismatch is given to causes, without a warning.
+fn given(verdict: Kind, said: &[String]) -> bool {
+    !matches!(verdict, Kind::Unexplained | Kind::None) && !describes(said)
+}
+
+/// Effects that a diagnosis names, then alternatives.
+fn named(said: &Diagnosis) -> Vec<String> {
+    let effects = said.effects.iter().map(|e| &e.id);
+    let all = effects.chain(said.alternatives.iter().map(|a| &a.id));
+    all.cloned().collect()
 }
 
 /// Folders of a case's recordings: to train on, and to judge by.
@@ -229,9 +243,7 @@ fn judge(
     oracle: Option<f64>,
     hidden: Option<&Diagnosis>,
 ) -> Result {
-    let ids: Vec<String> = (said.effects.iter().map(|e| e.id.clone()))
-        .chain(said.alternatives.iter().map(|a| a.id.clone()))
-        .collect();
+    let ids = named(said);
     // what is said beside "unexplained" isn't claimed, but of real recordings there is always something unexplained
     let claimed = truth.real || said.verdict != Kind::Unexplained;
     let right = match truth.effects.len() {
@@ -266,7 +278,7 @@ fn judge(
         said: ids,
         right,
         values,
-        hidden: hidden.map(|h| h.verdict),
+        hidden: hidden.map(|h| (h.verdict, given(h.verdict, &named(h)))),
         truth,
     }
 }
@@ -274,7 +286,6 @@ fn judge(
 impl Tally {
     fn of(results: &[Result]) -> Self {
         let mut tally = Self::default();
-        let warned = |verdict| matches!(verdict, Kind::Unexplained | Kind::None);
         let (mut errors, mut ratios) = (Vec::new(), Vec::new());
         for r in results {
             let foreign = r.truth.effects.iter().any(|e| e.id == Concealed::FOREIGN);
@@ -288,7 +299,7 @@ impl Tally {
                 }
                 1 if foreign && visible => {
                     tally.foreigners.0 += 1;
-                    tally.foreigners.1 += usize::from(!warned(r.verdict) && !describes(&r.said));
+                    tally.foreigners.1 += usize::from(given(r.verdict, &r.said));
                 }
                 1 if visible && !foreign => {
                     let id = &r.truth.effects[0].id;
@@ -298,9 +309,9 @@ impl Tally {
                     let third = r.said.iter().take(3).any(|s| s == id);
                     tally.third += usize::from(r.right && third);
                     tally.hooks += usize::from(r.right_hook);
-                    if let Some(verdict) = r.hidden {
+                    if let Some((_, given)) = r.hidden {
                         tally.hidden.0 += 1;
-                        tally.hidden.1 += usize::from(!warned(verdict));
+                        tally.hidden.1 += usize::from(given);
                     }
                 }
                 2 if visible => {

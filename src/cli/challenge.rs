@@ -4,7 +4,6 @@ use super::progress::shared;
 use super::table::table;
 use super::{Failure, print};
 use crate::challenge::{self, CaseResult, Spec, Tally};
-use crate::diagnose::verdict::Kind;
 use std::path::PathBuf;
 
 #[derive(clap::Args)]
@@ -92,7 +91,8 @@ fn cases(results: &[CaseResult]) -> String {
             r.verdict.name(),
             r.said.join(", "),
             (if r.right { "yes" } else { "no" }).into(),
-            r.hidden.map_or(String::new(), Kind::name),
+            r.hidden
+                .map_or(String::new(), |(verdict, _)| verdict.name()),
             r.over_oracle.map_or(String::new(), |x| format!("{x:.2}")),
             format!("{:.0}", r.seconds),
         ]

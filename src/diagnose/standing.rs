@@ -86,17 +86,15 @@ impl<'a> Standing<'a> {
         holdout: &[Samples],
         seed: u64,
     ) -> Result<Self, DiagnoseError> {
-        let nominal: Vec<f64> = empty.own.iter().map(|p| p.nominal).collect();
+        let (empty, start) = nominal(empty)?;
         let mut random = Pcg64Mcg::seed_from_u64(seed);
-        let elsewhere: Vec<f64> = (empty.own.iter().zip(&nominal))
-            .map(|(p, n)| {
+        let elsewhere: Vec<f64> = (empty.own.iter())
+            .map(|p| {
                 let to = p.range.0 + random.random::<f64>() * p.width();
-                n + 0.3 * (to - n)
+                p.nominal + 0.3 * (to - p.nominal)
             })
             .collect();
-        let all = 0..nominal.len();
-        let mut start = empty.start(&nominal, None).map_err(unfit)?;
-        let empty = empty.doubting(&mut start);
+        let all = 0..elsewhere.len();
         let other = empty.start(&elsewhere, Some(&start));
         let fit = |start: Linear| empty.fit(start, all.clone(), STEPS.0);
         let (first, second) = rayon::join(|| fit(start), || other.map(fit));
@@ -283,11 +281,17 @@ impl<'a> Standing<'a> {
 /// # Errors
 /// If the scenario has no steady state at a sample.
 pub(super) fn fitted(empty: Trial<'_>) -> Result<(Trial<'_>, Linear), DiagnoseError> {
+    let (empty, start) = nominal(empty)?;
+    let all = 0..start.at.len();
+    let fit = empty.fit(start, all, STEPS.0);
+    Ok(settled(empty, fit))
+}
+
+/// The scenario at its nominal values, with the doubt that its residuals there tell.
+fn nominal(empty: Trial<'_>) -> Result<(Trial<'_>, Linear), DiagnoseError> {
     let nominal: Vec<f64> = empty.own.iter().map(|p| p.nominal).collect();
     let mut start = empty.start(&nominal, None).map_err(unfit)?;
-    let empty = empty.doubting(&mut start);
-    let fit = empty.fit(start, 0..nominal.len(), STEPS.0);
-    Ok(settled(empty, fit))
+    Ok((empty.doubting(&mut start), start))
 }
 
 /// How many deviations each kind of channel is off: root mean squares of recordings, and of these the median.

@@ -253,11 +253,16 @@ impl System {
 
     /// Forces and torques of the present state at the present time, joints included.
     pub fn evaluate(&mut self) {
+        self.evaluate_by(Group::loads);
+    }
+
+    /// The same with other loads of bodies.
+    pub(crate) fn evaluate_by(&mut self, loads: impl Fn(&mut Group, &Moment<'_>) + Send + Sync) {
         let now = Moment {
             time: self.time,
             inputs: &self.inputs,
         };
-        each(&mut self.groups, |group| group.loads(&now));
+        each(&mut self.groups, |group| loads(group, &now));
         for joint in &self.joints {
             joint.apply(&mut self.groups, &now);
         }

@@ -4,7 +4,7 @@
 pub mod made;
 
 use auxetica::config::Source;
-use auxetica::engine::{Model, ReadBody, SteadyOptions, SteadySolver};
+use auxetica::engine::{BodyId, BoundaryCondition, Model, ReadBody, SteadyOptions, SteadySolver};
 use nalgebra::Vector3;
 use std::path::{Path, PathBuf};
 
@@ -33,6 +33,18 @@ pub fn model(text: &str) -> Model {
     Source::from_text("test", text, &[])
         .and_then(|source| Model::build(&source, None))
         .unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// Loads of the only body of a model that a boundary condition puts in its place.
+pub fn deform(model: &mut Model, as_told: Box<dyn BoundaryCondition>) -> BodyId {
+    let id = model.system.ids()[0];
+    model
+        .system
+        .add_boundary(id, "deform", as_told)
+        .expect("a free body can be put anywhere");
+    model.system.apply_boundaries();
+    model.system.evaluate();
+    id
 }
 
 /// Moves the model to its steady state at `time` \[s\].

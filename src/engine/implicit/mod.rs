@@ -9,8 +9,7 @@ mod motion;
 mod scheme;
 
 use crate::bodies::State;
-use crate::group::{Group, each};
-use crate::inputs::Moment;
+use crate::group::Group;
 use crate::rotation;
 use crate::steady::diagnosis;
 use crate::steady::tangent::Tangent;
@@ -319,23 +318,10 @@ impl ImplicitSolver {
 
     /// Loads less inertia in free directions, as the right-hand side takes them.
     fn find_residual(&mut self, system: &mut System) {
-        let System {
-            groups,
-            joints,
-            inputs,
-            time,
-            ..
-        } = system;
-        let now = Moment {
-            time: *time,
-            inputs,
-        };
-        each(groups, |group| group.loads_in_motion(&now));
-        for joint in joints.iter() {
-            joint.apply(groups, &now);
-        }
-        self.unknowns.read_loads(groups, &mut self.loads);
-        self.unknowns.read_inertia(groups, &mut self.inertia);
+        system.evaluate_by(Group::loads_in_motion);
+        self.unknowns.read_loads(&system.groups, &mut self.loads);
+        self.unknowns
+            .read_inertia(&system.groups, &mut self.inertia);
         let parts = self.inertia.iter().zip(&self.after.truly);
         for (load, (inertia, acceleration)) in self.loads.iter_mut().zip(parts) {
             *load -= inertia * acceleration;

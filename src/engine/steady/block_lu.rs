@@ -22,7 +22,7 @@ struct Neighbour {
 }
 
 /// Pattern, blocks and, once factorised, factors `(D + L) (I + U)`, with `D` the pivots.
-pub(crate) struct BlockLu {
+pub(super) struct BlockLu {
     /// Stations in the order of their elimination.
     order: Vec<usize>,
     /// Where each pivot's neighbours start, and where the last one's end.
@@ -38,7 +38,7 @@ pub(crate) struct BlockLu {
 
 impl BlockLu {
     /// A matrix of zeros with blocks at these `(row, column)` and wherever elimination fills one in.
-    pub(crate) fn new(stations: usize, pattern: impl Iterator<Item = (usize, usize)>) -> Self {
+    pub(super) fn new(stations: usize, pattern: impl Iterator<Item = (usize, usize)>) -> Self {
         let mut near = vec![Vec::new(); stations];
         for (row, column) in pattern {
             if row != column {
@@ -109,18 +109,18 @@ impl BlockLu {
     }
 
     /// Where blocks of the pattern are kept, for [`BlockLu::blocks_mut`].
-    pub(crate) fn slots(&self, pattern: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
+    pub(super) fn slots(&self, pattern: impl Iterator<Item = (usize, usize)>) -> Vec<usize> {
         let turns = self.turns();
         pattern.map(|(r, c)| self.slot(&turns, r, c)).collect()
     }
 
     /// The blocks, to be filled with a matrix before [`BlockLu::factorise`] overwrites it.
-    pub(crate) fn blocks_mut(&mut self) -> &mut [Matrix6<f64>] {
+    pub(super) fn blocks_mut(&mut self) -> &mut [Matrix6<f64>] {
         &mut self.blocks
     }
 
     /// Replaces the matrix by its factors. A singular one gives factors that aren't finite.
-    pub(crate) fn factorise(&mut self) {
+    pub(super) fn factorise(&mut self) {
         let mut updates = self.updates.iter();
         for (turn, pivot) in self.order.iter().enumerate() {
             let neighbours = &self.neighbours[self.starts[turn]..self.starts[turn + 1]];
@@ -145,7 +145,7 @@ impl BlockLu {
     }
 
     /// Solves in place with the factors; `false` if the result isn't finite (a singular matrix).
-    pub(crate) fn solve(&self, side: &mut [f64]) -> bool {
+    pub(super) fn solve(&self, side: &mut [f64]) -> bool {
         let at = |station: usize| station * SIZE..(station + 1) * SIZE;
         for (turn, pivot) in self.order.iter().enumerate() {
             let mut own = Vector6::from_column_slice(&side[at(*pivot)]);
