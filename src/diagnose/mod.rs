@@ -27,7 +27,7 @@ use crate::compare::CompareError;
 use crate::config::{Problems, Source};
 use crate::identify::{Effect, Parameter, Robot};
 pub use oracle::oracle;
-use samples::Samples;
+use samples::{KINDS, Samples};
 use standing::{Among, Standing};
 use std::path::PathBuf;
 use trial::Trial;
@@ -103,17 +103,8 @@ pub fn diagnose(
             break baseline;
         }
         same_robot::motor_order(request.source, &train[0])?;
-        // so that a kind of channel that is modelled badly doesn't decide about all others; what it counts changes the fit
-        let mut off = standing::off(&baseline.trial, &baseline.fit);
-        for samples in train.iter_mut().chain(&mut holdout) {
-            samples.thin(ENOUGH);
-            samples.widen(off);
-        }
-        let (trial, fit) = standing::fitted(Trial::new(request.source, &own, &train))?;
-        off = standing::off(&trial, &fit);
-        for samples in train.iter_mut().chain(&mut holdout) {
-            samples.widen(off);
-        }
+        let off = standing::off(&baseline.trial, &baseline.fit);
+        weigh(off, [&mut train, &mut holdout], (request.source, &own))?;
         weighed = true;
     };
     told(0.1);
@@ -143,6 +134,27 @@ pub fn diagnose(
     diagnosis.seconds = start.elapsed().as_secs_f64();
     told(1.0);
     Ok((diagnosis, augmented))
+}
+
+/// Lets kinds of channels count by how far `off` they are, so that one that is modelled badly doesn't decide about all
+/// others.
+fn weigh(
+    off: [f64; KINDS.len()],
+    data: [&mut Vec<Samples>; 2],
+    (source, own): (&Source, &[Parameter]),
+) -> Result<(), DiagnoseError> {
+    let [train, holdout] = data;
+    for samples in train.iter_mut().chain(holdout.iter_mut()) {
+        samples.thin(ENOUGH);
+        samples.widen(off);
+    }
+    // what counts changes the fit, and that how far off they are
+    let (trial, fit) = standing::fitted(Trial::new(source, own, train))?;
+    let off = standing::off(&trial, &fit);
+    for samples in train.iter_mut().chain(holdout) {
+        samples.widen(off);
+    }
+    Ok(())
 }
 
 /// What is left described by a law, term by term, if that does better: on top of the causes that are named, or in place of
