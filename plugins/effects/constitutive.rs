@@ -75,14 +75,22 @@ effect!(
     |_robot| vec![
         Variant::new("of stretch")
             .number("growth of stretch rigidities", "m/rad", (0.0, 2e-3), (-0.015, 0.1))
-            .append("laws", "(apply: Stiffness(stretch_per_twist: {0}))"),
+            .append("laws", "(apply: Stiffness(shear_per_twist: {0}, axial_per_twist: {0}))"),
         Variant::new("of bending and twist")
             .number("growth of bending and twist rigidities", "m/rad", (0.0, 2e-3), (-0.015, 0.1))
-            .append("laws", "(apply: Stiffness(bend_per_twist: {0}))"),
+            .append("laws", "(apply: Stiffness(bending_per_twist: {0}, twist_per_twist: {0}))"),
         Variant::new("of all")
             .number("growth of stretch rigidities", "m/rad", (0.0, 2e-3), (-0.015, 0.1))
             .number("growth of bending and twist rigidities", "m/rad", (0.0, 2e-3), (-0.015, 0.1))
-            .append("laws", "(apply: Stiffness(stretch_per_twist: {0}, bend_per_twist: {1}))"),
+            .append(
+                "laws",
+                "(apply: Stiffness(shear_per_twist: {0}, axial_per_twist: {0}, bending_per_twist: {1}, twist_per_twist: {1}))",
+            ),
+        // a rod that is nearly a mechanism until it is wound
+        Variant::new("along the axis and in bending")
+            .number("growth of the axial rigidity", "m/rad", (0.0, 0.02), (-0.015, 1.0))
+            .number("growth of the bending rigidities", "m/rad", (0.0, 2e-3), (-0.015, 0.1))
+            .append("laws", "(apply: Stiffness(axial_per_twist: {0}, bending_per_twist: {1}))"),
     ]
 );
 

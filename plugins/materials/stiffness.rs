@@ -22,12 +22,18 @@ pub struct Stiffness {
     /// Factor of the twist rigidity [-].
     #[serde(default)]
     twist: Option<Finite>,
-    /// Growth of shear and axial rigidities with the size of the twist [m/rad].
+    /// Growth of both shear rigidities with the size of the twist [m/rad].
     #[serde(default)]
-    stretch_per_twist: Option<Finite>,
-    /// Growth of bending and twist rigidities with the size of the twist [m/rad].
+    shear_per_twist: Option<Finite>,
+    /// Growth of the axial rigidity with the size of the twist [m/rad].
     #[serde(default)]
-    bend_per_twist: Option<Finite>,
+    axial_per_twist: Option<Finite>,
+    /// Growth of both bending rigidities with the size of the twist [m/rad].
+    #[serde(default)]
+    bending_per_twist: Option<Finite>,
+    /// Growth of the twist rigidity with the size of the twist [m/rad].
+    #[serde(default)]
+    twist_per_twist: Option<Finite>,
     /// Change of all rigidities from start to tip, as a share of their mean [-].
     #[serde(default)]
     gradient: Option<Finite>,
@@ -47,8 +53,9 @@ impl RodLaw for Stiffness {
             .bending
             .map_or((1.0, 1.0), |(x, y)| (x.into(), y.into()));
         let twist = or(self.twist, 1.0);
-        let stretch = or(self.stretch_per_twist, 0.0);
-        let bend = or(self.bend_per_twist, 0.0);
+        let growth = |of: [Option<Finite>; 2]| of.map(|slope| or(slope, 0.0));
+        let stretch = growth([self.shear_per_twist, self.axial_per_twist]);
+        let bend = growth([self.bending_per_twist, self.twist_per_twist]);
         let gradient = or(self.gradient, 0.0);
         let n = rod.elements();
         let along = |at: f64| 1.0 + gradient * (at / n as f64 - 0.5);
@@ -58,15 +65,17 @@ impl RodLaw for Stiffness {
             sum / f64::from(count.max(1))
         };
         for e in 0..n {
-            let grown = 1.0 + stretch * twist_of(rod, e);
-            let common = (along(e as f64 + 0.5) * grown).max(0.01);
-            let factors = Vector3::new(shear, shear, axial).map(|f| f.max(0.01)) * common;
+            let size = twist_of(rod, e);
+            let [across, axially] = stretch.map(|slope| 1.0 + slope * size);
+            let factors = Vector3::new(shear * across, shear * across, axial * axially);
+            let factors = factors.map(|f| (f * along(e as f64 + 0.5)).max(0.01));
             rod.set_shear_stretch(e, rod.shear_stretch(e).component_mul(&factors));
         }
         for v in rod.cells() {
-            let grown = 1.0 + bend * rod.twist(v).abs();
-            let common = (along(v as f64) * grown).max(0.01);
-            let factors = Vector3::new(bx, by, twist).map(|f| f.max(0.01)) * common;
+            let size = rod.twist(v).abs();
+            let [across, about] = bend.map(|slope| 1.0 + slope * size);
+            let factors = Vector3::new(bx * across, by * across, twist * about);
+            let factors = factors.map(|f| (f * along(v as f64)).max(0.01));
             rod.set_bend_twist(v, rod.bend_twist(v).component_mul(&factors));
         }
     }

@@ -134,9 +134,11 @@ impl Samples {
         self.wider.iter().any(|wider| *wider > 1.0)
     }
 
-    /// Leaves so many samples at most, evenly.
+    /// Leaves so many samples at most, evenly, and as many fewer rows on the way.
     pub fn thin(&mut self, most: usize) {
+        let every = self.list.len().div_ceil(most).max(1);
         thin(&mut self.list, most);
+        self.passed = self.passed.iter().copied().step_by(every).collect();
     }
 
     /// Takes residuals of each kind to spread wider by how far `off` they are over those that are least so.
