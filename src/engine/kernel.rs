@@ -7,7 +7,7 @@
 //! multiplication and no reordering, hence give the same bits whatever vectors the machine has.
 
 use crate::bodies::Bodies;
-use crate::lanes::{LANES, Lanes, MatrixLanes, Rows, Triple, VectorLanes, ZERO, triple};
+use crate::lanes::{LANES, Lanes, Matrix, Rows, Triple, Vector, ZERO, triple};
 use crate::rotation::{self, SMALL_HAVERSINE, SMALL_SQUARE};
 use nalgebra::{Matrix3, Vector3};
 use pulp::{Simd, WithSimd};
@@ -58,49 +58,85 @@ impl Bodies {
         }
     }
 
-    /// First stations of the blocks.
+    /// Number of blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self) -> impl Iterator<Item = usize> + use<> {
-        (0..self.stations()).step_by(LANES)
+    pub(crate) fn blocks(&self) -> usize {
+        self.stations().div_ceil(LANES)
+    }
+
+    #[inline(always)]
+    fn drift(&mut self, dt: f64) {
+        let n = self.blocks();
+        let state = &mut self.state;
+        let (velocity, omega) = (state.velocity.blocks(n), state.omega.blocks(n));
+        let mut position = state.position.blocks_mut(n);
+        let mut director = state.director.blocks_mut(n);
+        let mut far = false;
+        for b in 0..n {
+            let (velocity, omega) = (velocity.at(b), omega.at(b));
+            let (at, frame) = (position.at(b), director.at(b));
+            let (mut moved, mut turned) = (Vector::ZERO, Matrix::ZERO);
+            let mut squared = ZERO;
+            for l in 0..LANES {
+                moved.set(l, at.get(l) + velocity.get(l) * dt);
+                let turn = omega.get(l) * -dt;
+                squared[l] = turn.squared();
+                let turn = rotation::exp_small(turn, squared[l]);
+                turned.set(l, &turn.product(&frame.get(l)));
+            }
+            position.set(b, &moved);
+            if any_beyond(&squared, SMALL_SQUARE) {
+                far = true;
+            } else {
+                director.set(b, &turned);
+            }
+        }
+        if far {
+            self.turn_far(dt);
+        }
+    }
+
+    /// Turns the frames of the blocks where one turns by more than the power series is for.
+    #[cold]
+    fn turn_far(&mut self, dt: f64) {
+        let n = self.blocks();
+        let omega = self.state.omega.blocks(n);
+        let mut director = self.state.director.blocks_mut(n);
+        for b in 0..n {
+            let (omega, frame) = (omega.at(b), director.at(b));
+            let squared = std::array::from_fn(|l| (omega.get(l) * -dt).squared());
+            if any_beyond(&squared, SMALL_SQUARE) {
+                let mut turned = Matrix::ZERO;
+                for l in 0..LANES {
+                    let turn = Vector3::from(omega.get(l)) * dt;
+                    let frame = rotation::turned(&Matrix3::from(frame.get(l)), &turn);
+                    turned.set(l, &Rows::from(&frame));
+                }
+                director.set(b, &turned);
+            }
+        }
     }
 
     #[allow(clippy::needless_range_loop)] // a lane of every array alike
     #[inline(always)]
-    fn drift(&mut self, dt: f64) {
-        for k in self.blocks() {
-            let state = &mut self.state;
-            let (velocity, omega) = (state.velocity.lanes(k), state.omega.lanes(k));
-            let (position, director) = (state.position.lanes(k), state.director.lanes(k));
-            let mut moved = VectorLanes::ZERO;
-            let mut turned = MatrixLanes::ZERO;
-            let mut squared = ZERO;
-            for l in 0..LANES {
-                moved.set(l, position.get(l) + velocity.get(l) * dt);
-                let turn = omega.get(l) * -dt;
-                squared[l] = turn.squared();
-                let turn = rotation::exp_small(turn, squared[l]);
-                turned.set(l, &turn.product(&director.get(l)));
-            }
-            if any_beyond(&squared, SMALL_SQUARE) {
-                turned_far(&mut turned, &director, &omega, dt);
-            }
-            state.position.set_lanes(k, &moved);
-            state.director.set_lanes(k, &turned);
-        }
-    }
-
-    #[inline(always)]
     fn measure(&mut self) {
-        for k in self.blocks() {
-            let state = &self.state;
-            let (position, next) = (state.position.lanes(k), state.position.after(k));
-            let (director, before) = (state.director.lanes(k), state.director.before(k));
-            let (element, element_before) = (self.element.lanes(k), self.element.before(k));
-            let built = self.reference_length.lanes(k);
-            let mut length = ZERO;
-            let mut tangent = VectorLanes::ZERO;
-            let mut turn = VectorLanes::ZERO;
-            let mut haversine = ZERO;
+        let n = self.blocks();
+        let state = &self.state;
+        let (position, next) = (state.position.blocks(n), state.position.after(n));
+        let (director, before) = (state.director.blocks(n), state.director.before(n));
+        let (element, element_before) = (self.element.blocks(n), self.element.before(n));
+        let built = self.reference_length.blocks(n);
+        let lengths = self.length.blocks_mut(n);
+        let mut tangents = self.tangent.blocks_mut(n);
+        let mut turns = self.rotation.blocks_mut(n);
+        let mut far = false;
+        for b in 0..n {
+            let (position, next) = (position.at(b), next.at(b));
+            let (director, before) = (director.at(b), before.at(b));
+            let (element, element_before) = (&element[b], &element_before[b]);
+            let built = &built[b];
+            let (mut length, mut haversine) = (ZERO, ZERO);
+            let (mut tangent, mut turn) = (Vector::ZERO, Vector::ZERO);
             for l in 0..LANES {
                 let edge = next.get(l) - position.get(l);
                 let norm = edge.squared().sqrt();
@@ -115,12 +151,36 @@ impl Bodies {
                 haversine[l] = if exists { u } else { 0.0 };
                 turn.set(l, rotation::log_small(axis, u).only_if(exists));
             }
-            if any_beyond(&haversine, SMALL_HAVERSINE) {
-                turns_far(&mut turn, &before, &director, &haversine);
+            far |= any_beyond(&haversine, SMALL_HAVERSINE);
+            lengths[b] = length;
+            tangents.set(b, &tangent);
+            turns.set(b, &turn);
+        }
+        if far {
+            self.measure_far();
+        }
+    }
+
+    /// Rotation vectors where neighbours are turned by more than the power series is for.
+    #[cold]
+    fn measure_far(&mut self) {
+        let n = self.blocks();
+        let (director, before) = (self.state.director.blocks(n), self.state.director.before(n));
+        let (element, element_before) = (self.element.blocks(n), self.element.before(n));
+        let mut turns = self.rotation.blocks_mut(n);
+        for b in 0..n {
+            let mut turn = Vector::ZERO;
+            for l in 0..LANES {
+                turn.set(l, turns.at(b).get(l));
+                let [before, after] = [before, director].map(|m| m.at(b).get(l));
+                let (_, haversine) = rotation::sines(&before.product_transposed(&after));
+                let exists = element[b][l] * element_before[b][l] != 0.0;
+                if exists && is_beyond(haversine, SMALL_HAVERSINE) {
+                    let [before, after] = [before, after].map(Matrix3::from);
+                    turn.set(l, Triple::from(&rotation::between(&before, &after)));
+                }
             }
-            self.length.set_lanes(k, &length);
-            self.tangent.set_lanes(k, &tangent);
-            self.rotation.set_lanes(k, &turn);
+            turns.set(b, &turn);
         }
     }
 
@@ -142,20 +202,33 @@ impl Bodies {
 
     #[inline(always)]
     fn strain(&mut self) {
-        for k in self.blocks() {
-            let director = self.state.director.lanes(k);
-            let (length, length_before) = (self.length.lanes(k), self.length.before(k));
-            let (rest, rest_before) = (self.rest_length.lanes(k), self.rest_length.before(k));
-            let (element, element_before) = (self.element.lanes(k), self.element.before(k));
-            let (tangent, turn) = (self.tangent.lanes(k), self.rotation.lanes(k));
-            let (shear_stretch, rest_sigma) =
-                (self.shear_stretch.lanes(k), self.rest_sigma.lanes(k));
-            let (bend_twist, rest_kappa) = (self.bend_twist.lanes(k), self.rest_kappa.lanes(k));
-            let (cell, twist_length) = (self.cell.lanes(k), self.twist_length.lanes(k));
+        let n = self.blocks();
+        let director = self.state.director.blocks(n);
+        let (length, length_before) = (self.length.blocks(n), self.length.before(n));
+        let (rest, rest_before) = (self.rest_length.blocks(n), self.rest_length.before(n));
+        let (element, element_before) = (self.element.blocks(n), self.element.before(n));
+        let (tangent, turn) = (self.tangent.blocks(n), self.rotation.blocks(n));
+        let (shear_stretch, rest_sigma) = (self.shear_stretch.blocks(n), self.rest_sigma.blocks(n));
+        let (bend_twist, rest_kappa) = (self.bend_twist.blocks(n), self.rest_kappa.blocks(n));
+        let (cell, twist_length) = (self.cell.blocks(n), self.twist_length.blocks(n));
+        let dilatations = self.dilatation.blocks_mut(n);
+        let (mut sigmas, mut stresses) = (self.sigma.blocks_mut(n), self.stress.blocks_mut(n));
+        let rest_voronois = self.rest_voronoi.blocks_mut(n);
+        let voronoi_dilatations = self.voronoi_dilatation.blocks_mut(n);
+        let (mut kappas, mut couples) = (self.kappa.blocks_mut(n), self.couple.blocks_mut(n));
+        for b in 0..n {
+            let director = director.at(b);
+            let (length, length_before) = (&length[b], &length_before[b]);
+            let (rest, rest_before) = (&rest[b], &rest_before[b]);
+            let (element, element_before) = (&element[b], &element_before[b]);
+            let (tangent, turn) = (tangent.at(b), turn.at(b));
+            let (shear_stretch, rest_sigma) = (shear_stretch.at(b), rest_sigma.at(b));
+            let (bend_twist, rest_kappa) = (bend_twist.at(b), rest_kappa.at(b));
+            let (cell, twist_length) = (&cell[b], &twist_length[b]);
             let (mut dilatation, mut rest_voronoi) = (ZERO, ZERO);
             let mut voronoi_dilatation = ZERO;
-            let (mut sigma, mut stress) = (VectorLanes::ZERO, VectorLanes::ZERO);
-            let (mut kappa, mut couple) = (VectorLanes::ZERO, VectorLanes::ZERO);
+            let (mut sigma, mut stress) = (Vector::ZERO, Vector::ZERO);
+            let (mut kappa, mut couple) = (Vector::ZERO, Vector::ZERO);
             for l in 0..LANES {
                 let stretch = length[l] / rest[l];
                 dilatation[l] = stretch;
@@ -188,27 +261,38 @@ impl Bodies {
                 let elastic = (curvature - rest_kappa.get(l)).times(bend_twist.get(l));
                 couple.set(l, elastic.only_if(exists));
             }
-            self.dilatation.set_lanes(k, &dilatation);
-            self.sigma.set_lanes(k, &sigma);
-            self.stress.set_lanes(k, &stress);
-            self.rest_voronoi.set_lanes(k, &rest_voronoi);
-            self.voronoi_dilatation.set_lanes(k, &voronoi_dilatation);
-            self.kappa.set_lanes(k, &kappa);
-            self.couple.set_lanes(k, &couple);
+            dilatations[b] = dilatation;
+            sigmas.set(b, &sigma);
+            stresses.set(b, &stress);
+            rest_voronois[b] = rest_voronoi;
+            voronoi_dilatations[b] = voronoi_dilatation;
+            kappas.set(b, &kappa);
+            couples.set(b, &couple);
         }
     }
 
     /// Forces and couples that elements and cells pass on, and the torques that come from shear.
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     fn contact_loads(&mut self) {
-        for k in self.blocks() {
-            let (director, tangent) = (self.state.director.lanes(k), self.tangent.lanes(k));
-            let (stress, dilatation) = (self.stress.lanes(k), self.dilatation.lanes(k));
-            let (rest, rest_voronoi) = (self.rest_length.lanes(k), self.rest_voronoi.lanes(k));
-            let (kappa, couple) = (self.kappa.lanes(k), self.couple.lanes(k));
-            let voronoi_dilatation = self.voronoi_dilatation.lanes(k);
-            let (mut force, mut shear) = (VectorLanes::ZERO, VectorLanes::ZERO);
-            let (mut passed, mut transported) = (VectorLanes::ZERO, VectorLanes::ZERO);
+        let n = self.blocks();
+        let (director, tangent) = (self.state.director.blocks(n), self.tangent.blocks(n));
+        let (stress, dilatation) = (self.stress.blocks(n), self.dilatation.blocks(n));
+        let (rest, rest_voronoi) = (self.rest_length.blocks(n), self.rest_voronoi.blocks(n));
+        let (kappa, couple) = (self.kappa.blocks(n), self.couple.blocks(n));
+        let voronoi_dilatation = self.voronoi_dilatation.blocks(n);
+        let mut forces = self.contact_force.blocks_mut(n);
+        let mut couples = self.contact_couple.blocks_mut(n);
+        let mut transports = self.transported_couple.blocks_mut(n);
+        let mut torques = self.torque.blocks_mut(n);
+        for b in 0..n {
+            let (director, tangent) = (director.at(b), tangent.at(b));
+            let (stress, dilatation) = (stress.at(b), &dilatation[b]);
+            let (rest, rest_voronoi) = (&rest[b], &rest_voronoi[b]);
+            let (kappa, couple) = (kappa.at(b), couple.at(b));
+            let voronoi_dilatation = &voronoi_dilatation[b];
+            let (mut force, mut shear) = (Vector::ZERO, Vector::ZERO);
+            let (mut passed, mut transported) = (Vector::ZERO, Vector::ZERO);
             for l in 0..LANES {
                 let (q, n) = (director.get(l), stress.get(l));
                 force.set(l, q.transposed_times(n) * (1.0 / dilatation[l]));
@@ -219,10 +303,10 @@ impl Bodies {
                 passed.set(l, m);
                 transported.set(l, kappa.get(l).cross(m) * (rest_voronoi[l] / 2.0));
             }
-            self.contact_force.set_lanes(k, &force);
-            self.contact_couple.set_lanes(k, &passed);
-            self.transported_couple.set_lanes(k, &transported);
-            self.torque.set_lanes(k, &shear);
+            forces.set(b, &force);
+            couples.set(b, &passed);
+            transports.set(b, &transported);
+            torques.set(b, &shear);
         }
     }
 
@@ -230,35 +314,48 @@ impl Bodies {
     /// own rotations transport.
     #[inline(always)]
     fn balance(&mut self) {
-        for k in self.blocks() {
-            let (force, force_before) = (self.contact_force.lanes(k), self.contact_force.before(k));
-            let (couple, couple_after) =
-                (self.contact_couple.lanes(k), self.contact_couple.after(k));
-            let transported = self.transported_couple.lanes(k);
-            let transported_after = self.transported_couple.after(k);
-            let shear = self.torque.lanes(k);
-            let (mut forces, mut torques) = (VectorLanes::ZERO, VectorLanes::ZERO);
+        let n = self.blocks();
+        let (force, force_before) = (self.contact_force.blocks(n), self.contact_force.before(n));
+        let (couple, couple_after) = (self.contact_couple.blocks(n), self.contact_couple.after(n));
+        let transported = self.transported_couple.blocks(n);
+        let transported_after = self.transported_couple.after(n);
+        let mut forces = self.force.blocks_mut(n);
+        let mut torques = self.torque.blocks_mut(n);
+        for b in 0..n {
+            let (force, force_before) = (force.at(b), force_before.at(b));
+            let (couple, couple_after) = (couple.at(b), couple_after.at(b));
+            let (transported, transported_after) = (transported.at(b), transported_after.at(b));
+            let shear = torques.at(b);
+            let (mut difference, mut torque) = (Vector::ZERO, Vector::ZERO);
             for l in 0..LANES {
-                forces.set(l, force.get(l) - force_before.get(l));
+                difference.set(l, force.get(l) - force_before.get(l));
                 let bending = couple_after.get(l) - couple.get(l);
                 let transport = transported_after.get(l) + transported.get(l);
-                torques.set(l, bending + transport + shear.get(l));
+                torque.set(l, bending + transport + shear.get(l));
             }
-            self.force.set_lanes(k, &forces);
-            self.torque.set_lanes(k, &torques);
+            forces.set(b, &difference);
+            torques.set(b, &torque);
         }
     }
 
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     fn kick(&mut self, dt: f64) {
-        for k in self.blocks() {
-            let state = &mut self.state;
-            let (velocity, next) = (state.velocity.lanes(k), state.velocity.after(k));
-            let (omega, inertia) = (state.omega.lanes(k), self.inertia.lanes(k));
-            let (force, torque) = (self.force.lanes(k), self.torque.lanes(k));
-            let (mass, tangent) = (self.mass.lanes(k), self.tangent.lanes(k));
-            let (rest, dilatation) = (self.rest_length.lanes(k), self.dilatation.lanes(k));
-            let (mut linear, mut angular) = (VectorLanes::ZERO, VectorLanes::ZERO);
+        let n = self.blocks();
+        let inertia = self.inertia.blocks(n);
+        let (force, torque) = (self.force.blocks(n), self.torque.blocks(n));
+        let (mass, tangent) = (self.mass.blocks(n), self.tangent.blocks(n));
+        let (rest, dilatation) = (self.rest_length.blocks(n), self.dilatation.blocks(n));
+        // with the block after the last, whose first station is read
+        let mut velocities = self.state.velocity.blocks_mut(n + 1);
+        let mut omegas = self.state.omega.blocks_mut(n);
+        for b in 0..n {
+            let (velocity, next) = (velocities.at(b), velocities.after(b));
+            let (omega, inertia) = (omegas.at(b), inertia.at(b));
+            let (force, torque) = (force.at(b), torque.at(b));
+            let (mass, tangent) = (&mass[b], tangent.at(b));
+            let (rest, dilatation) = (&rest[b], &dilatation[b]);
+            let (mut linear, mut angular) = (Vector::ZERO, Vector::ZERO);
             for l in 0..LANES {
                 linear.set(l, velocity.get(l) + force.get(l) * (dt / mass[l]));
 
@@ -277,8 +374,8 @@ impl Bodies {
                 let middle = start + rate(start) * (dt / 2.0);
                 angular.set(l, start + rate(middle) * dt);
             }
-            state.velocity.set_lanes(k, &linear);
-            state.omega.set_lanes(k, &angular);
+            velocities.set(b, &linear);
+            omegas.set(b, &angular);
         }
     }
 }
@@ -297,30 +394,4 @@ fn any_beyond(lanes: &Lanes, bound: f64) -> bool {
         beyond += u64::from(is_beyond(*x, bound));
     }
     beyond > 0
-}
-
-/// Frames turned by any angles.
-#[cold]
-fn turned_far(turned: &mut MatrixLanes, director: &MatrixLanes, omega: &VectorLanes, dt: f64) {
-    for l in 0..LANES {
-        let turn = Vector3::from(omega.get(l)) * dt;
-        let frame = rotation::turned(&Matrix3::from(director.get(l)), &turn);
-        turned.set(l, &Rows::from(&frame));
-    }
-}
-
-/// Rotation vectors of any angles, where the last argument is beyond its bound.
-#[cold]
-fn turns_far(
-    turns: &mut VectorLanes,
-    before: &MatrixLanes,
-    director: &MatrixLanes,
-    haversine: &Lanes,
-) {
-    for (l, haversine) in haversine.iter().enumerate() {
-        if is_beyond(*haversine, SMALL_HAVERSINE) {
-            let [before, after] = [before, director].map(|m| Matrix3::from(m.get(l)));
-            turns.set(l, Triple::from(&rotation::between(&before, &after)));
-        }
-    }
 }

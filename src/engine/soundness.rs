@@ -44,10 +44,13 @@ impl WithSimd for PlainlySound<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> bool {
         let bodies = self.0;
+        let n = bodies.blocks();
+        let (velocity, omega) = (bodies.state.velocity.blocks(n), bodies.state.omega.blocks(n));
+        let (dilatation, turn) = (bodies.dilatation.blocks(n), bodies.rotation.blocks(n));
         let mut faults = ZERO;
-        for k in bodies.blocks() {
-            let (velocity, omega) = (bodies.state.velocity.lanes(k), bodies.state.omega.lanes(k));
-            let (dilatation, turn) = (bodies.dilatation.lanes(k), bodies.rotation.lanes(k));
+        for b in 0..n {
+            let (velocity, omega) = (velocity.at(b), omega.at(b));
+            let (dilatation, turn) = (&dilatation[b], turn.at(b));
             for l in 0..LANES {
                 // zero, or no number where a rate is infinite or none
                 let zero = (velocity.get(l) * 0.0 + omega.get(l) * 0.0).dot(triple(1.0, 1.0, 1.0));

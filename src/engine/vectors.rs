@@ -1,19 +1,24 @@
 //! Numbers, 3-vectors and 3x3 matrices, one a station: flat arrays that are read one by one or eight stations at once.
 //!
-//! Arrays begin with one entry before the first station and end with some after the last, so that blocks of stations
-//! and their neighbours can be read everywhere.
+//! Arrays begin with an entry or more before the first station and end with some after the last, so that blocks of
+//! stations and their neighbours can be read everywhere.
 
-use crate::lanes::{LANES, Lanes, MatrixLanes, VectorLanes};
+use crate::lanes::{LANES, Lanes, MatrixBlocks, MatrixBlocksMut, VectorBlocks, VectorBlocksMut};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Index, IndexMut, Range};
 
 /// Numbers, one a station.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Scalars {
-    /// A zero, the numbers, and the last of them again up to the end of the block after theirs.
+    /// At least a zero, the numbers, and the last of them again up to the end of the block after theirs.
     padded: Vec<f64>,
+    /// Where the first number is: at the start of a cache line, since blocks across two of them are slow.
+    first: usize,
     len: usize,
 }
+
+/// Bytes of a cache line, and of a block.
+const LINE: usize = LANES * size_of::<f64>();
 
 impl Scalars {
     /// How many there are.
@@ -28,60 +33,90 @@ impl Scalars {
 
     /// Appends a number.
     pub fn push(&mut self, value: f64) {
+        let blocks = (self.len + 1).div_ceil(LANES) + 1;
+        self.padded.resize((1 + blocks) * LANES, 0.0);
+        self.align();
         self.len += 1;
-        let blocks = self.len.div_ceil(LANES) + 1;
-        self.padded.resize(1 + blocks * LANES, 0.0);
-        self.padded[self.len..].fill(value);
+        self.padded[self.first + self.len - 1..].fill(value);
+    }
+
+    /// Moves all to where the first number begins a cache line.
+    fn align(&mut self) {
+        let first = 1 + self.padded[1..].as_ptr().align_offset(LINE).min(LANES - 1);
+        self.padded
+            .copy_within(self.first..self.first + self.len, first);
+        self.padded[..first].fill(0.0);
+        self.first = first;
+        if let Some(last) = self.as_slice().last().copied() {
+            self.padded[first + self.len..].fill(last);
+        }
     }
 
     /// The numbers.
     #[inline]
     pub fn as_slice(&self) -> &[f64] {
-        self.padded.get(1..=self.len).unwrap_or_default()
+        let range = self.first..self.first + self.len;
+        self.padded.get(range).unwrap_or_default()
     }
 
     /// The numbers.
     #[inline]
     pub fn as_mut_slice(&mut self) -> &mut [f64] {
-        self.padded.get_mut(1..=self.len).unwrap_or_default()
+        let range = self.first..self.first + self.len;
+        self.padded.get_mut(range).unwrap_or_default()
     }
 
     /// Becomes the same as `other`, without allocating if it has its size.
     pub fn copy_from(&mut self, other: &Self) {
-        self.padded.clone_from(&other.padded);
-        self.len = other.len;
+        if self.len != other.len {
+            *self = other.clone();
+        }
+        let used = self.padded.len().saturating_sub(LANES);
+        self.padded[self.first..][..used].copy_from_slice(&other.padded[other.first..][..used]);
     }
 
+    /// The first `count` blocks from station `shift - 1` on.
     #[inline(always)]
-    fn block(&self, at: usize) -> Lanes {
-        *self.padded[at..]
-            .first_chunk()
-            .expect("arrays end after their last block")
+    fn shifted(&self, shift: usize, count: usize) -> &[Lanes] {
+        &self.padded[self.first - 1 + shift..].as_chunks().0[..count]
     }
 
-    /// Stations `k..k + LANES`.
+    /// The first `count` blocks.
     #[inline(always)]
-    pub(crate) fn lanes(&self, k: usize) -> Lanes {
-        self.block(k + 1)
+    pub(crate) fn blocks(&self, count: usize) -> &[Lanes] {
+        self.shifted(1, count)
     }
 
-    /// The stations before those of [`Scalars::lanes`].
+    /// The stations before those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, k: usize) -> Lanes {
-        self.block(k)
+    pub(crate) fn before(&self, count: usize) -> &[Lanes] {
+        self.shifted(0, count)
     }
 
-    /// The stations after those of [`Scalars::lanes`].
+    /// The stations after those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, k: usize) -> Lanes {
-        self.block(k + 2)
+    pub(crate) fn after(&self, count: usize) -> &[Lanes] {
+        self.shifted(2, count)
     }
 
-    /// Replaces stations `k..k + LANES`.
+    /// The first `count` blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn set_lanes(&mut self, k: usize, lanes: &Lanes) {
-        let block = self.padded[k + 1..].first_chunk_mut();
-        *block.expect("arrays end after their last block") = *lanes;
+    pub(crate) fn blocks_mut(&mut self, count: usize) -> &mut [Lanes] {
+        &mut self.padded[self.first..].as_chunks_mut().0[..count]
+    }
+}
+
+impl Clone for Scalars {
+    fn clone(&self) -> Self {
+        let mut clone = Self {
+            padded: self.padded.clone(),
+            first: self.first,
+            len: self.len,
+        };
+        if !clone.is_empty() {
+            clone.align();
+        }
+        clone
     }
 }
 
@@ -95,14 +130,14 @@ impl Index<usize> for Scalars {
     type Output = f64;
     #[inline]
     fn index(&self, i: usize) -> &f64 {
-        &self.padded[i + 1]
+        &self.padded[self.first + i]
     }
 }
 
 impl IndexMut<usize> for Scalars {
     #[inline]
     fn index_mut(&mut self, i: usize) -> &mut f64 {
-        &mut self.padded[i + 1]
+        &mut self.padded[self.first + i]
     }
 }
 
@@ -186,34 +221,28 @@ impl Vectors {
         self.components.iter().map(sum).sum::<f64>() == 0.0
     }
 
-    /// Stations `k..k + LANES`.
+    /// The first `count` blocks.
     #[inline(always)]
-    pub(crate) fn lanes(&self, k: usize) -> VectorLanes {
-        let [x, y, z] = &self.components;
-        VectorLanes([x.lanes(k), y.lanes(k), z.lanes(k)])
+    pub(crate) fn blocks(&self, count: usize) -> VectorBlocks<'_> {
+        VectorBlocks(self.components.each_ref().map(|c| c.blocks(count)))
     }
 
-    /// The stations before those of [`Vectors::lanes`].
+    /// The stations before those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, k: usize) -> VectorLanes {
-        let [x, y, z] = &self.components;
-        VectorLanes([x.before(k), y.before(k), z.before(k)])
+    pub(crate) fn before(&self, count: usize) -> VectorBlocks<'_> {
+        VectorBlocks(self.components.each_ref().map(|c| c.before(count)))
     }
 
-    /// The stations after those of [`Vectors::lanes`].
+    /// The stations after those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, k: usize) -> VectorLanes {
-        let [x, y, z] = &self.components;
-        VectorLanes([x.after(k), y.after(k), z.after(k)])
+    pub(crate) fn after(&self, count: usize) -> VectorBlocks<'_> {
+        VectorBlocks(self.components.each_ref().map(|c| c.after(count)))
     }
 
-    /// Replaces stations `k..k + LANES`.
+    /// The first `count` blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn set_lanes(&mut self, k: usize, lanes: &VectorLanes) {
-        let [x, y, z] = &mut self.components;
-        x.set_lanes(k, &lanes.0[0]);
-        y.set_lanes(k, &lanes.0[1]);
-        z.set_lanes(k, &lanes.0[2]);
+    pub(crate) fn blocks_mut(&mut self, count: usize) -> VectorBlocksMut<'_> {
+        VectorBlocksMut(self.components.each_mut().map(|c| c.blocks_mut(count)))
     }
 }
 
@@ -258,26 +287,21 @@ impl Matrices {
         }
     }
 
-    /// Stations `k..k + LANES`.
+    /// The first `count` blocks.
     #[inline(always)]
-    pub(crate) fn lanes(&self, k: usize) -> MatrixLanes {
-        let [a, b, c] = &self.rows;
-        MatrixLanes([a.lanes(k), b.lanes(k), c.lanes(k)])
+    pub(crate) fn blocks(&self, count: usize) -> MatrixBlocks<'_> {
+        MatrixBlocks(self.rows.each_ref().map(|r| r.blocks(count)))
     }
 
-    /// The stations before those of [`Matrices::lanes`].
+    /// The stations before those of [`Matrices::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, k: usize) -> MatrixLanes {
-        let [a, b, c] = &self.rows;
-        MatrixLanes([a.before(k), b.before(k), c.before(k)])
+    pub(crate) fn before(&self, count: usize) -> MatrixBlocks<'_> {
+        MatrixBlocks(self.rows.each_ref().map(|r| r.before(count)))
     }
 
-    /// Replaces stations `k..k + LANES`.
+    /// The first `count` blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn set_lanes(&mut self, k: usize, lanes: &MatrixLanes) {
-        let [a, b, c] = &mut self.rows;
-        a.set_lanes(k, &lanes.0[0]);
-        b.set_lanes(k, &lanes.0[1]);
-        c.set_lanes(k, &lanes.0[2]);
+    pub(crate) fn blocks_mut(&mut self, count: usize) -> MatrixBlocksMut<'_> {
+        MatrixBlocksMut(self.rows.each_mut().map(|r| r.blocks_mut(count)))
     }
 }
