@@ -9,7 +9,6 @@
 use crate::bodies::Bodies;
 use crate::lanes::{LANES, Lanes, Matrix, Rows, Triple, Vector, ZERO, triple};
 use crate::rotation::{self, SMALL_HAVERSINE, SMALL_SQUARE};
-use nalgebra::{Matrix3, Vector3};
 use pulp::{Simd, WithSimd};
 
 /// A pass over all stations.
@@ -71,48 +70,37 @@ impl Bodies {
         let (velocity, omega) = (state.velocity.blocks(n), state.omega.blocks(n));
         let mut position = state.position.blocks_mut(n);
         let mut director = state.director.blocks_mut(n);
-        let mut far = false;
+        let mut far = ZERO;
         for b in 0..n {
             let (velocity, omega) = (velocity.at(b), omega.at(b));
             let (at, frame) = (position.at(b), director.at(b));
             let (mut moved, mut turned) = (Vector::ZERO, Matrix::ZERO);
-            let mut squared = ZERO;
             for l in 0..LANES {
                 moved.set(l, at.get(l) + velocity.get(l) * dt);
                 let turn = omega.get(l) * -dt;
-                squared[l] = turn.squared();
-                let turn = rotation::exp_small(turn, squared[l]);
+                let squared = turn.squared();
+                let near = squared <= SMALL_SQUARE;
+                far[l] = if near { far[l] } else { 1.0 };
+                let squared = if near { squared } else { 0.0 };
+                let turn = rotation::exp_small(turn.only_if(near), squared);
                 turned.set(l, &turn.product(&frame.get(l)));
             }
             position.set(b, &moved);
-            if any_beyond(&squared, SMALL_SQUARE) {
-                far = true;
-            } else {
-                director.set(b, &turned);
-            }
+            director.set(b, &turned);
         }
-        if far {
+        if any(&far) {
             self.turn_far(dt);
         }
     }
 
-    /// Turns the frames of the blocks where one turns by more than the power series is for.
+    /// Turns the frames that turn by more than the power series is for, or by no number, which [`Bodies::drift`] leaves.
     #[cold]
     fn turn_far(&mut self, dt: f64) {
-        let n = self.blocks();
-        let omega = self.state.omega.blocks(n);
-        let mut director = self.state.director.blocks_mut(n);
-        for b in 0..n {
-            let (omega, frame) = (omega.at(b), director.at(b));
-            let squared = std::array::from_fn(|l| (omega.get(l) * -dt).squared());
-            if any_beyond(&squared, SMALL_SQUARE) {
-                let mut turned = Matrix::ZERO;
-                for l in 0..LANES {
-                    let turn = Vector3::from(omega.get(l)) * dt;
-                    let frame = rotation::turned(&Matrix3::from(frame.get(l)), &turn);
-                    turned.set(l, &Rows::from(&frame));
-                }
-                director.set(b, &turned);
+        for k in 0..self.stations() {
+            let omega = self.state.omega.get(k);
+            if is_beyond((Triple::from(&omega) * -dt).squared(), SMALL_SQUARE) {
+                let turned = rotation::turned(&self.state.director.get(k), &(omega * dt));
+                self.state.director.set(k, turned);
             }
         }
     }
@@ -129,13 +117,13 @@ impl Bodies {
         let lengths = self.length.blocks_mut(n);
         let mut tangents = self.tangent.blocks_mut(n);
         let mut turns = self.rotation.blocks_mut(n);
-        let mut far = false;
+        let mut far = ZERO;
         for b in 0..n {
             let (position, next) = (position.at(b), next.at(b));
             let (director, before) = (director.at(b), before.at(b));
             let (element, element_before) = (&element[b], &element_before[b]);
             let built = &built[b];
-            let (mut length, mut haversine) = (ZERO, ZERO);
+            let mut length = ZERO;
             let (mut tangent, mut turn) = (Vector::ZERO, Vector::ZERO);
             for l in 0..LANES {
                 let edge = next.get(l) - position.get(l);
@@ -148,15 +136,15 @@ impl Bodies {
                 let (axis, u) =
                     rotation::sines(&before.get(l).product_transposed(&director.get(l)));
                 let exists = element[l] * element_before[l] != 0.0;
-                haversine[l] = if exists { u } else { 0.0 };
+                let near = !exists | (u <= SMALL_HAVERSINE);
+                far[l] = if near { far[l] } else { 1.0 };
                 turn.set(l, rotation::log_small(axis, u).only_if(exists));
             }
-            far |= any_beyond(&haversine, SMALL_HAVERSINE);
             lengths[b] = length;
             tangents.set(b, &tangent);
             turns.set(b, &turn);
         }
-        if far {
+        if any(&far) {
             self.measure_far();
         }
     }
@@ -164,23 +152,14 @@ impl Bodies {
     /// Rotation vectors where neighbours are turned by more than the power series is for.
     #[cold]
     fn measure_far(&mut self) {
-        let n = self.blocks();
-        let (director, before) = (self.state.director.blocks(n), self.state.director.before(n));
-        let (element, element_before) = (self.element.blocks(n), self.element.before(n));
-        let mut turns = self.rotation.blocks_mut(n);
-        for b in 0..n {
-            let mut turn = Vector::ZERO;
-            for l in 0..LANES {
-                turn.set(l, turns.at(b).get(l));
-                let [before, after] = [before, director].map(|m| m.at(b).get(l));
-                let (_, haversine) = rotation::sines(&before.product_transposed(&after));
-                let exists = element[b][l] * element_before[b][l] != 0.0;
-                if exists && is_beyond(haversine, SMALL_HAVERSINE) {
-                    let [before, after] = [before, after].map(Matrix3::from);
-                    turn.set(l, Triple::from(&rotation::between(&before, &after)));
-                }
+        let Self { layouts, state, .. } = self;
+        for k in layouts.iter().flat_map(|l| l.first + 1..l.first + l.elements) {
+            let [before, after] = [k - 1, k].map(|k| state.director.get(k));
+            let [a, b] = [&before, &after].map(Rows::from);
+            let (_, haversine) = rotation::sines(&a.product_transposed(&b));
+            if is_beyond(haversine, SMALL_HAVERSINE) {
+                self.rotation.set(k, rotation::between(&before, &after));
             }
-            turns.set(b, &turn);
         }
     }
 
@@ -386,12 +365,8 @@ fn is_beyond(x: f64, bound: f64) -> bool {
     x.is_nan() || x > bound
 }
 
-/// Whether a lane is beyond a bound, or no number.
+/// Whether a lane isn't zero.
 #[inline(always)]
-fn any_beyond(lanes: &Lanes, bound: f64) -> bool {
-    let mut beyond = 0_u64;
-    for x in lanes {
-        beyond += u64::from(is_beyond(*x, bound));
-    }
-    beyond > 0
+fn any(lanes: &Lanes) -> bool {
+    lanes.iter().sum::<f64>() != 0.0
 }

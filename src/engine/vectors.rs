@@ -202,9 +202,8 @@ impl Vectors {
     /// The components of the vectors `range`, each one slice.
     #[inline]
     pub fn slices(&self, range: Range<usize>) -> [&[f64]; 3] {
-        self.components
-            .each_ref()
-            .map(|c| &c.as_slice()[range.clone()])
+        let [x, y, z] = &self.components;
+        [x, y, z].map(|c| &c.as_slice()[range.clone()])
     }
 
     /// The components of the vectors `range`, each one slice.
@@ -224,25 +223,29 @@ impl Vectors {
     /// The first `count` blocks.
     #[inline(always)]
     pub(crate) fn blocks(&self, count: usize) -> VectorBlocks<'_> {
-        VectorBlocks(self.components.each_ref().map(|c| c.blocks(count)))
+        let [x, y, z] = &self.components;
+        VectorBlocks([x.blocks(count), y.blocks(count), z.blocks(count)])
     }
 
     /// The stations before those of [`Vectors::blocks`].
     #[inline(always)]
     pub(crate) fn before(&self, count: usize) -> VectorBlocks<'_> {
-        VectorBlocks(self.components.each_ref().map(|c| c.before(count)))
+        let [x, y, z] = &self.components;
+        VectorBlocks([x.before(count), y.before(count), z.before(count)])
     }
 
     /// The stations after those of [`Vectors::blocks`].
     #[inline(always)]
     pub(crate) fn after(&self, count: usize) -> VectorBlocks<'_> {
-        VectorBlocks(self.components.each_ref().map(|c| c.after(count)))
+        let [x, y, z] = &self.components;
+        VectorBlocks([x.after(count), y.after(count), z.after(count)])
     }
 
     /// The first `count` blocks, to be changed.
     #[inline(always)]
     pub(crate) fn blocks_mut(&mut self, count: usize) -> VectorBlocksMut<'_> {
-        VectorBlocksMut(self.components.each_mut().map(|c| c.blocks_mut(count)))
+        let [x, y, z] = &mut self.components;
+        VectorBlocksMut([x.blocks_mut(count), y.blocks_mut(count), z.blocks_mut(count)])
     }
 }
 
@@ -290,18 +293,21 @@ impl Matrices {
     /// The first `count` blocks.
     #[inline(always)]
     pub(crate) fn blocks(&self, count: usize) -> MatrixBlocks<'_> {
-        MatrixBlocks(self.rows.each_ref().map(|r| r.blocks(count)))
+        let [a, b, c] = &self.rows;
+        MatrixBlocks([a.blocks(count), b.blocks(count), c.blocks(count)])
     }
 
     /// The stations before those of [`Matrices::blocks`].
     #[inline(always)]
     pub(crate) fn before(&self, count: usize) -> MatrixBlocks<'_> {
-        MatrixBlocks(self.rows.each_ref().map(|r| r.before(count)))
+        let [a, b, c] = &self.rows;
+        MatrixBlocks([a.before(count), b.before(count), c.before(count)])
     }
 
     /// The first `count` blocks, to be changed.
     #[inline(always)]
     pub(crate) fn blocks_mut(&mut self, count: usize) -> MatrixBlocksMut<'_> {
-        MatrixBlocksMut(self.rows.each_mut().map(|r| r.blocks_mut(count)))
+        let [a, b, c] = &mut self.rows;
+        MatrixBlocksMut([a.blocks_mut(count), b.blocks_mut(count), c.blocks_mut(count)])
     }
 }
