@@ -141,6 +141,8 @@ pub struct Bodies {
     // as built
     pub(crate) mass: Scalars,
     pub(crate) inertia: Vectors,
+    pub(crate) inverse_mass: Scalars,
+    pub(crate) inverse_inertia: Vectors,
     pub(crate) reference_length: Scalars,
     pub(crate) built_shear_stretch: Vectors,
     pub(crate) built_bend_twist: Vectors,
@@ -320,6 +322,8 @@ impl Bodies {
         self.cell.push(f64::from(s.whole_cell));
         self.mass.push(s.mass);
         self.inertia.push(s.inertia);
+        self.inverse_mass.push(1.0 / s.mass);
+        self.inverse_inertia.push(s.inertia.map(|j| 1.0 / j));
         self.reference_length.push(s.length);
         self.rest_length.push(s.length);
         self.twist_length.push(s.cell);

@@ -46,6 +46,8 @@ pub(crate) struct Group {
     pub(crate) damping: Vec<Hooked<dyn Damping>>,
     /// Whether the last step has left all as it should be.
     pub(crate) sound: bool,
+    /// Whether poses are those of the middle of a step and rates those of its end.
+    pub(crate) midway: bool,
     /// Where several steps at once began.
     pub(crate) start: State,
 }

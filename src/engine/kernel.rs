@@ -16,6 +16,8 @@ use pulp::{Simd, WithSimd};
 pub(crate) enum Pass {
     /// Moves every node and frame with its present rates for a time \[s\] (half a step of position Verlet).
     Drift(f64),
+    /// The same twice, to the same bits: the end of a step and the beginning of the next.
+    DriftTwice(f64),
     /// Element lengths and tangents, and the rotation vectors between neighbouring elements.
     Measure,
     /// Strains and linear elastic loads from the measures and from what the rod laws set (eq. 2.12, 2.13, 2.18).
@@ -36,7 +38,8 @@ impl WithSimd for Sweep<'_> {
     fn with_simd<S: Simd>(self, _: S) {
         let Self(bodies, pass) = self;
         match pass {
-            Pass::Drift(dt) => bodies.drift(dt),
+            Pass::Drift(dt) => bodies.drift::<1>(dt),
+            Pass::DriftTwice(dt) => bodies.drift::<2>(dt),
             Pass::Measure => bodies.measure(),
             Pass::Strain => bodies.strain(),
             Pass::Loads => {
@@ -64,7 +67,7 @@ impl Bodies {
     }
 
     #[inline(always)]
-    fn drift(&mut self, dt: f64) {
+    fn drift<const TIMES: usize>(&mut self, dt: f64) {
         let n = self.blocks();
         let state = &mut self.state;
         let (velocity, omega) = (state.velocity.blocks(n), state.omega.blocks(n));
@@ -76,20 +79,26 @@ impl Bodies {
             let (at, frame) = (position.at(b), director.at(b));
             let (mut moved, mut turned) = (Vector::ZERO, Matrix::ZERO);
             for l in 0..LANES {
-                moved.set(l, at.get(l) + velocity.get(l) * dt);
+                let (mut at, mut frame) = (at.get(l), frame.get(l));
+                let move_by = velocity.get(l) * dt;
                 let turn = omega.get(l) * -dt;
                 let squared = turn.squared();
                 let near = squared <= SMALL_SQUARE;
                 far[l] = if near { far[l] } else { 1.0 };
                 let squared = if near { squared } else { 0.0 };
                 let turn = rotation::exp_small(turn.only_if(near), squared);
-                turned.set(l, &turn.product(&frame.get(l)));
+                for _ in 0..TIMES {
+                    at = at + move_by;
+                    frame = turn.product(&frame);
+                }
+                moved.set(l, at);
+                turned.set(l, &frame);
             }
             position.set(b, &moved);
             director.set(b, &turned);
         }
         if any(&far) {
-            self.turn_far(dt);
+            (0..TIMES).for_each(|_| self.turn_far(dt));
         }
     }
 
@@ -321,28 +330,29 @@ impl Bodies {
     #[inline(always)]
     fn kick(&mut self, dt: f64) {
         let n = self.blocks();
-        let inertia = self.inertia.blocks(n);
+        let (inertia, inverse) = (self.inertia.blocks(n), self.inverse_inertia.blocks(n));
         let (force, torque) = (self.force.blocks(n), self.torque.blocks(n));
-        let (mass, tangent) = (self.mass.blocks(n), self.tangent.blocks(n));
-        let (rest, dilatation) = (self.rest_length.blocks(n), self.dilatation.blocks(n));
+        let (inverse_mass, tangent) = (self.inverse_mass.blocks(n), self.tangent.blocks(n));
+        let (length, dilatation) = (self.length.blocks(n), self.dilatation.blocks(n));
         // with the block after the last, whose first station is read
         let mut velocities = self.state.velocity.blocks_mut(n + 1);
         let mut omegas = self.state.omega.blocks_mut(n);
         for b in 0..n {
             let (velocity, next) = (velocities.at(b), velocities.after(b));
-            let (omega, inertia) = (omegas.at(b), inertia.at(b));
+            let omega = omegas.at(b);
+            let (inertia, inverse) = (inertia.at(b), inverse.at(b));
             let (force, torque) = (force.at(b), torque.at(b));
-            let (mass, tangent) = (&mass[b], tangent.at(b));
-            let (rest, dilatation) = (&rest[b], &dilatation[b]);
+            let (inverse_mass, tangent) = (&inverse_mass[b], tangent.at(b));
+            let (length, dilatation) = (&length[b], &dilatation[b]);
             let (mut linear, mut angular) = (Vector::ZERO, Vector::ZERO);
             for l in 0..LANES {
-                linear.set(l, velocity.get(l) + force.get(l) * (dt / mass[l]));
+                linear.set(l, velocity.get(l) + force.get(l) * (dt * inverse_mass[l]));
 
                 // before velocities change
                 let spread = (next.get(l) - velocity.get(l)).dot(tangent.get(l));
-                let stretching = spread / (rest[l] * dilatation[l]);
+                let stretching = spread / length[l];
                 let (j, torque) = (inertia.get(l), torque.get(l) * dilatation[l]);
-                let inverse = triple(1.0 / j.x, 1.0 / j.y, 1.0 / j.z);
+                let inverse = inverse.get(l);
                 let rate = |omega: Triple| {
                     let momentum = j.times(omega);
                     (torque + momentum.cross(omega) + momentum * stretching).times(inverse)
