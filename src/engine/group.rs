@@ -84,9 +84,11 @@ impl Group {
 
     fn internal_loads(&mut self, now: &Moment<'_>) {
         self.bodies.sweep(Pass::Measure);
-        if !self.laws.is_empty() {
-            self.bodies.as_built();
+        if self.laws.is_empty() {
+            self.bodies.sweep(Pass::Elastic);
+            return;
         }
+        self.bodies.as_built();
         for l in &self.laws {
             l.hook.rest(now, &mut l.view(&mut self.bodies));
         }

@@ -7,7 +7,7 @@
 //! multiplication and no reordering, hence give the same bits whatever vectors the machine has.
 
 use crate::bodies::Bodies;
-use crate::lanes::{LANES, Lanes, Matrix, Rows, Triple, Vector, ZERO, triple};
+use crate::lanes::{LANES, Lanes, Matrix, Rows, Span, Triple, Vector, ZERO, triple};
 use crate::rotation::{self, SMALL_HAVERSINE, SMALL_SQUARE};
 use pulp::{Simd, WithSimd};
 
@@ -25,9 +25,14 @@ pub(crate) enum Pass {
     /// Internal forces on nodes \[N\] and torques on elements \[N m\] from stresses and couples; overwrites the loads
     /// (eq. 3.2, 3.3 without the inertial terms).
     Loads,
+    /// Both, for rods without laws.
+    Elastic,
     /// Velocities and angular velocities after a time \[s\] under the present loads (eq. 2.16, 2.17).
     Kick(f64),
 }
+
+/// Blocks that go through several passes one after the other, in the cache.
+const CHUNK: usize = 4;
 
 struct Sweep<'a>(&'a mut Bodies, Pass);
 
@@ -41,11 +46,9 @@ impl WithSimd for Sweep<'_> {
             Pass::Drift(dt) => bodies.drift::<1>(dt),
             Pass::DriftTwice(dt) => bodies.drift::<2>(dt),
             Pass::Measure => bodies.measure(),
-            Pass::Strain => bodies.strain(),
-            Pass::Loads => {
-                bodies.contact_loads();
-                bodies.balance();
-            }
+            Pass::Strain => bodies.strain(bodies.blocks()),
+            Pass::Loads => bodies.by_chunks(|_, _| {}),
+            Pass::Elastic => bodies.by_chunks(|bodies, chunk| bodies.strain(chunk)),
             Pass::Kick(dt) => bodies.kick(dt),
         }
     }
@@ -60,21 +63,24 @@ impl Bodies {
         }
     }
 
-    /// Number of blocks.
+    /// All blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self) -> usize {
-        self.stations().div_ceil(LANES)
+    pub(crate) fn blocks(&self) -> Span {
+        Span {
+            start: 0,
+            count: self.stations().div_ceil(LANES),
+        }
     }
 
     #[inline(always)]
     fn drift<const TIMES: usize>(&mut self, dt: f64) {
-        let n = self.blocks();
+        let all = self.blocks();
         let state = &mut self.state;
-        let (velocity, omega) = (state.velocity.blocks(n), state.omega.blocks(n));
-        let mut position = state.position.blocks_mut(n);
-        let mut director = state.director.blocks_mut(n);
+        let (velocity, omega) = (state.velocity.blocks(all), state.omega.blocks(all));
+        let mut position = state.position.blocks_mut(all);
+        let mut director = state.director.blocks_mut(all);
         let mut far = ZERO;
-        for b in 0..n {
+        for b in 0..all.count {
             let (velocity, omega) = (velocity.at(b), omega.at(b));
             let (at, frame) = (position.at(b), director.at(b));
             let (mut moved, mut turned) = (Vector::ZERO, Matrix::ZERO);
@@ -117,17 +123,17 @@ impl Bodies {
     #[allow(clippy::needless_range_loop)] // a lane of every array alike
     #[inline(always)]
     fn measure(&mut self) {
-        let n = self.blocks();
+        let all = self.blocks();
         let state = &self.state;
-        let (position, next) = (state.position.blocks(n), state.position.after(n));
-        let (director, before) = (state.director.blocks(n), state.director.before(n));
-        let (element, element_before) = (self.element.blocks(n), self.element.before(n));
-        let built = self.reference_length.blocks(n);
-        let lengths = self.length.blocks_mut(n);
-        let mut tangents = self.tangent.blocks_mut(n);
-        let mut turns = self.rotation.blocks_mut(n);
+        let (position, next) = (state.position.blocks(all), state.position.after(all));
+        let (director, before) = (state.director.blocks(all), state.director.before(all));
+        let (element, element_before) = (self.element.blocks(all), self.element.before(all));
+        let built = self.reference_length.blocks(all);
+        let lengths = self.length.blocks_mut(all);
+        let mut tangents = self.tangent.blocks_mut(all);
+        let mut turns = self.rotation.blocks_mut(all);
         let mut far = ZERO;
-        for b in 0..n {
+        for b in 0..all.count {
             let (position, next) = (position.at(b), next.at(b));
             let (director, before) = (director.at(b), before.at(b));
             let (element, element_before) = (&element[b], &element_before[b]);
@@ -188,23 +194,45 @@ impl Bodies {
         }
     }
 
+    /// Internal loads, after `first` in each chunk.
     #[inline(always)]
-    fn strain(&mut self) {
-        let n = self.blocks();
-        let director = self.state.director.blocks(n);
-        let (length, length_before) = (self.length.blocks(n), self.length.before(n));
-        let (rest, rest_before) = (self.rest_length.blocks(n), self.rest_length.before(n));
-        let (element, element_before) = (self.element.blocks(n), self.element.before(n));
-        let (tangent, turn) = (self.tangent.blocks(n), self.rotation.blocks(n));
-        let (shear_stretch, rest_sigma) = (self.shear_stretch.blocks(n), self.rest_sigma.blocks(n));
-        let (bend_twist, rest_kappa) = (self.bend_twist.blocks(n), self.rest_kappa.blocks(n));
-        let (cell, twist_length) = (self.cell.blocks(n), self.twist_length.blocks(n));
-        let dilatations = self.dilatation.blocks_mut(n);
-        let (mut sigmas, mut stresses) = (self.sigma.blocks_mut(n), self.stress.blocks_mut(n));
-        let rest_voronois = self.rest_voronoi.blocks_mut(n);
-        let voronoi_dilatations = self.voronoi_dilatation.blocks_mut(n);
-        let (mut kappas, mut couples) = (self.kappa.blocks_mut(n), self.couple.blocks_mut(n));
-        for b in 0..n {
+    fn by_chunks(&mut self, first: impl Fn(&mut Self, Span)) {
+        let Span { count, .. } = self.blocks();
+        for start in (0..count).step_by(CHUNK) {
+            let chunk = Span {
+                start,
+                count: CHUNK.min(count - start),
+            };
+            first(self, chunk);
+            self.contact_loads(chunk);
+            // a block behind: it needs the station after its last
+            self.balance(Span {
+                start: start.max(1) - 1,
+                count: chunk.count - usize::from(start == 0),
+            });
+        }
+        self.balance(Span {
+            start: count.max(1) - 1,
+            count: count.min(1),
+        });
+    }
+
+    #[inline(always)]
+    fn strain(&mut self, at: Span) {
+        let director = self.state.director.blocks(at);
+        let (length, length_before) = (self.length.blocks(at), self.length.before(at));
+        let (rest, rest_before) = (self.rest_length.blocks(at), self.rest_length.before(at));
+        let (element, element_before) = (self.element.blocks(at), self.element.before(at));
+        let (tangent, turn) = (self.tangent.blocks(at), self.rotation.blocks(at));
+        let (shear_stretch, rest_sigma) = (self.shear_stretch.blocks(at), self.rest_sigma.blocks(at));
+        let (bend_twist, rest_kappa) = (self.bend_twist.blocks(at), self.rest_kappa.blocks(at));
+        let (cell, twist_length) = (self.cell.blocks(at), self.twist_length.blocks(at));
+        let dilatations = self.dilatation.blocks_mut(at);
+        let (mut sigmas, mut stresses) = (self.sigma.blocks_mut(at), self.stress.blocks_mut(at));
+        let rest_voronois = self.rest_voronoi.blocks_mut(at);
+        let voronoi_dilatations = self.voronoi_dilatation.blocks_mut(at);
+        let (mut kappas, mut couples) = (self.kappa.blocks_mut(at), self.couple.blocks_mut(at));
+        for b in 0..at.count {
             let director = director.at(b);
             let (length, length_before) = (&length[b], &length_before[b]);
             let (rest, rest_before) = (&rest[b], &rest_before[b]);
@@ -262,18 +290,17 @@ impl Bodies {
     /// Forces and couples that elements and cells pass on, and the torques that come from shear.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    fn contact_loads(&mut self) {
-        let n = self.blocks();
-        let (director, tangent) = (self.state.director.blocks(n), self.tangent.blocks(n));
-        let (stress, dilatation) = (self.stress.blocks(n), self.dilatation.blocks(n));
-        let (rest, rest_voronoi) = (self.rest_length.blocks(n), self.rest_voronoi.blocks(n));
-        let (kappa, couple) = (self.kappa.blocks(n), self.couple.blocks(n));
-        let voronoi_dilatation = self.voronoi_dilatation.blocks(n);
-        let mut forces = self.contact_force.blocks_mut(n);
-        let mut couples = self.contact_couple.blocks_mut(n);
-        let mut transports = self.transported_couple.blocks_mut(n);
-        let mut torques = self.torque.blocks_mut(n);
-        for b in 0..n {
+    fn contact_loads(&mut self, at: Span) {
+        let (director, tangent) = (self.state.director.blocks(at), self.tangent.blocks(at));
+        let (stress, dilatation) = (self.stress.blocks(at), self.dilatation.blocks(at));
+        let (rest, rest_voronoi) = (self.rest_length.blocks(at), self.rest_voronoi.blocks(at));
+        let (kappa, couple) = (self.kappa.blocks(at), self.couple.blocks(at));
+        let voronoi_dilatation = self.voronoi_dilatation.blocks(at);
+        let mut forces = self.contact_force.blocks_mut(at);
+        let mut couples = self.contact_couple.blocks_mut(at);
+        let mut transports = self.transported_couple.blocks_mut(at);
+        let mut torques = self.torque.blocks_mut(at);
+        for b in 0..at.count {
             let (director, tangent) = (director.at(b), tangent.at(b));
             let (stress, dilatation) = (stress.at(b), &dilatation[b]);
             let (rest, rest_voronoi) = (&rest[b], &rest_voronoi[b]);
@@ -301,15 +328,14 @@ impl Bodies {
     /// Differences of what is passed on: couples over their dilatation cubed, the halves of the couples that the cells'
     /// own rotations transport.
     #[inline(always)]
-    fn balance(&mut self) {
-        let n = self.blocks();
-        let (force, force_before) = (self.contact_force.blocks(n), self.contact_force.before(n));
-        let (couple, couple_after) = (self.contact_couple.blocks(n), self.contact_couple.after(n));
-        let transported = self.transported_couple.blocks(n);
-        let transported_after = self.transported_couple.after(n);
-        let mut forces = self.force.blocks_mut(n);
-        let mut torques = self.torque.blocks_mut(n);
-        for b in 0..n {
+    fn balance(&mut self, at: Span) {
+        let (force, force_before) = (self.contact_force.blocks(at), self.contact_force.before(at));
+        let (couple, couple_after) = (self.contact_couple.blocks(at), self.contact_couple.after(at));
+        let transported = self.transported_couple.blocks(at);
+        let transported_after = self.transported_couple.after(at);
+        let mut forces = self.force.blocks_mut(at);
+        let mut torques = self.torque.blocks_mut(at);
+        for b in 0..at.count {
             let (force, force_before) = (force.at(b), force_before.at(b));
             let (couple, couple_after) = (couple.at(b), couple_after.at(b));
             let (transported, transported_after) = (transported.at(b), transported_after.at(b));
@@ -329,15 +355,15 @@ impl Bodies {
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     fn kick(&mut self, dt: f64) {
-        let n = self.blocks();
-        let (inertia, inverse) = (self.inertia.blocks(n), self.inverse_inertia.blocks(n));
-        let (force, torque) = (self.force.blocks(n), self.torque.blocks(n));
-        let (inverse_mass, tangent) = (self.inverse_mass.blocks(n), self.tangent.blocks(n));
-        let (length, dilatation) = (self.length.blocks(n), self.dilatation.blocks(n));
+        let all = self.blocks();
+        let (inertia, inverse) = (self.inertia.blocks(all), self.inverse_inertia.blocks(all));
+        let (force, torque) = (self.force.blocks(all), self.torque.blocks(all));
+        let (inverse_mass, tangent) = (self.inverse_mass.blocks(all), self.tangent.blocks(all));
+        let (length, dilatation) = (self.length.blocks(all), self.dilatation.blocks(all));
         // with the block after the last, whose first station is read
-        let mut velocities = self.state.velocity.blocks_mut(n + 1);
-        let mut omegas = self.state.omega.blocks_mut(n);
-        for b in 0..n {
+        let mut velocities = self.state.velocity.blocks_mut(all.and_next());
+        let mut omegas = self.state.omega.blocks_mut(all);
+        for b in 0..all.count {
             let (velocity, next) = (velocities.at(b), velocities.after(b));
             let omega = omegas.at(b);
             let (inertia, inverse) = (inertia.at(b), inverse.at(b));

@@ -15,6 +15,22 @@ pub(crate) type Lanes = [f64; LANES];
 /// Zero for each station.
 pub(crate) const ZERO: Lanes = [0.0; LANES];
 
+/// Neighbouring blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
+    pub(crate) start: usize,
+    pub(crate) count: usize,
+}
+
+impl Span {
+    /// These and the block after them.
+    #[inline(always)]
+    pub(crate) fn and_next(self) -> Self {
+        let count = self.count + 1;
+        Self { count, ..self }
+    }
+}
+
 /// Three numbers.
 #[derive(Clone, Copy)]
 pub(crate) struct Triple {

@@ -44,11 +44,11 @@ impl WithSimd for PlainlySound<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> bool {
         let bodies = self.0;
-        let n = bodies.blocks();
-        let (velocity, omega) = (bodies.state.velocity.blocks(n), bodies.state.omega.blocks(n));
-        let (dilatation, turn) = (bodies.dilatation.blocks(n), bodies.rotation.blocks(n));
+        let all = bodies.blocks();
+        let (velocity, omega) = (bodies.state.velocity.blocks(all), bodies.state.omega.blocks(all));
+        let (dilatation, turn) = (bodies.dilatation.blocks(all), bodies.rotation.blocks(all));
         let mut faults = ZERO;
-        for b in 0..n {
+        for b in 0..all.count {
             let (velocity, omega) = (velocity.at(b), omega.at(b));
             let (dilatation, turn) = (&dilatation[b], turn.at(b));
             for l in 0..LANES {

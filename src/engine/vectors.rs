@@ -3,7 +3,7 @@
 //! Arrays begin with an entry or more before the first station and end with some after the last, so that blocks of
 //! stations and their neighbours can be read everywhere.
 
-use crate::lanes::{LANES, Lanes, MatrixBlocks, MatrixBlocksMut, VectorBlocks, VectorBlocksMut};
+use crate::lanes::{LANES, Lanes, Span, MatrixBlocks, MatrixBlocksMut, VectorBlocks, VectorBlocksMut};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Index, IndexMut, Range};
 
@@ -34,7 +34,9 @@ impl Scalars {
     /// Appends a number.
     pub fn push(&mut self, value: f64) {
         let blocks = (self.len + 1).div_ceil(LANES) + 1;
-        self.padded.resize((1 + blocks) * LANES, 0.0);
+        // An odd number of lines, lest arrays that are allocated one after the other share their places in the cache.
+        let lines = (1 + blocks) | 1;
+        self.padded.resize(lines * LANES, 0.0);
         self.align();
         self.len += 1;
         self.padded[self.first + self.len - 1..].fill(value);
@@ -75,34 +77,36 @@ impl Scalars {
         self.padded[self.first..][..used].copy_from_slice(&other.padded[other.first..][..used]);
     }
 
-    /// The first `count` blocks from station `shift - 1` on.
+    /// Blocks from `shift - 1` stations after theirs on.
     #[inline(always)]
-    fn shifted(&self, shift: usize, count: usize) -> &[Lanes] {
-        &self.padded[self.first - 1 + shift..].as_chunks().0[..count]
+    fn shifted(&self, shift: usize, at: Span) -> &[Lanes] {
+        let first = self.first - 1 + shift + at.start * LANES;
+        &self.padded[first..].as_chunks().0[..at.count]
     }
 
-    /// The first `count` blocks.
+    /// The blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self, count: usize) -> &[Lanes] {
-        self.shifted(1, count)
+    pub(crate) fn blocks(&self, at: Span) -> &[Lanes] {
+        self.shifted(1, at)
     }
 
     /// The stations before those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, count: usize) -> &[Lanes] {
-        self.shifted(0, count)
+    pub(crate) fn before(&self, at: Span) -> &[Lanes] {
+        self.shifted(0, at)
     }
 
     /// The stations after those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, count: usize) -> &[Lanes] {
-        self.shifted(2, count)
+    pub(crate) fn after(&self, at: Span) -> &[Lanes] {
+        self.shifted(2, at)
     }
 
-    /// The first `count` blocks, to be changed.
+    /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn blocks_mut(&mut self, count: usize) -> &mut [Lanes] {
-        &mut self.padded[self.first..].as_chunks_mut().0[..count]
+    pub(crate) fn blocks_mut(&mut self, at: Span) -> &mut [Lanes] {
+        let first = self.first + at.start * LANES;
+        &mut self.padded[first..].as_chunks_mut().0[..at.count]
     }
 }
 
@@ -220,32 +224,32 @@ impl Vectors {
         self.components.iter().map(sum).sum::<f64>() == 0.0
     }
 
-    /// The first `count` blocks.
+    /// The blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self, count: usize) -> VectorBlocks<'_> {
+    pub(crate) fn blocks(&self, at: Span) -> VectorBlocks<'_> {
         let [x, y, z] = &self.components;
-        VectorBlocks([x.blocks(count), y.blocks(count), z.blocks(count)])
+        VectorBlocks([x.blocks(at), y.blocks(at), z.blocks(at)])
     }
 
     /// The stations before those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, count: usize) -> VectorBlocks<'_> {
+    pub(crate) fn before(&self, at: Span) -> VectorBlocks<'_> {
         let [x, y, z] = &self.components;
-        VectorBlocks([x.before(count), y.before(count), z.before(count)])
+        VectorBlocks([x.before(at), y.before(at), z.before(at)])
     }
 
     /// The stations after those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, count: usize) -> VectorBlocks<'_> {
+    pub(crate) fn after(&self, at: Span) -> VectorBlocks<'_> {
         let [x, y, z] = &self.components;
-        VectorBlocks([x.after(count), y.after(count), z.after(count)])
+        VectorBlocks([x.after(at), y.after(at), z.after(at)])
     }
 
-    /// The first `count` blocks, to be changed.
+    /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn blocks_mut(&mut self, count: usize) -> VectorBlocksMut<'_> {
+    pub(crate) fn blocks_mut(&mut self, at: Span) -> VectorBlocksMut<'_> {
         let [x, y, z] = &mut self.components;
-        VectorBlocksMut([x.blocks_mut(count), y.blocks_mut(count), z.blocks_mut(count)])
+        VectorBlocksMut([x.blocks_mut(at), y.blocks_mut(at), z.blocks_mut(at)])
     }
 }
 
@@ -290,24 +294,24 @@ impl Matrices {
         }
     }
 
-    /// The first `count` blocks.
+    /// The blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self, count: usize) -> MatrixBlocks<'_> {
+    pub(crate) fn blocks(&self, at: Span) -> MatrixBlocks<'_> {
         let [a, b, c] = &self.rows;
-        MatrixBlocks([a.blocks(count), b.blocks(count), c.blocks(count)])
+        MatrixBlocks([a.blocks(at), b.blocks(at), c.blocks(at)])
     }
 
     /// The stations before those of [`Matrices::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, count: usize) -> MatrixBlocks<'_> {
+    pub(crate) fn before(&self, at: Span) -> MatrixBlocks<'_> {
         let [a, b, c] = &self.rows;
-        MatrixBlocks([a.before(count), b.before(count), c.before(count)])
+        MatrixBlocks([a.before(at), b.before(at), c.before(at)])
     }
 
-    /// The first `count` blocks, to be changed.
+    /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn blocks_mut(&mut self, count: usize) -> MatrixBlocksMut<'_> {
+    pub(crate) fn blocks_mut(&mut self, at: Span) -> MatrixBlocksMut<'_> {
         let [a, b, c] = &mut self.rows;
-        MatrixBlocksMut([a.blocks_mut(count), b.blocks_mut(count), c.blocks_mut(count)])
+        MatrixBlocksMut([a.blocks_mut(at), b.blocks_mut(at), c.blocks_mut(at)])
     }
 }
