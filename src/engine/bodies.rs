@@ -67,21 +67,25 @@ pub struct Layout {
 
 impl Layout {
     /// Whether the body is a rod.
+    #[inline]
     pub fn is_rod(&self) -> bool {
         self.elements > 0
     }
 
     /// Number of nodes (and of stations).
+    #[inline]
     pub fn nodes(&self) -> usize {
         self.elements + 1
     }
 
     /// Number of frames: one an element, or the one of a rigid body.
+    #[inline]
     pub fn directors(&self) -> usize {
         self.elements.max(1)
     }
 
     /// Stations whose Voronoi cell exists.
+    #[inline]
     pub fn cells(&self) -> std::ops::Range<usize> {
         let first = if self.walled[0] { 0 } else { 1 };
         let past = self.elements + usize::from(self.walled[1]);
@@ -89,6 +93,7 @@ impl Layout {
     }
 
     /// Stations whose element exists.
+    #[inline]
     pub fn element_stations(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.elements
     }
@@ -175,11 +180,13 @@ pub struct Bodies {
 
 impl Bodies {
     /// Number of stations.
+    #[inline]
     pub fn stations(&self) -> usize {
         self.mass.len()
     }
 
     /// Where the bodies lie.
+    #[inline]
     pub fn layouts(&self) -> &[Layout] {
         &self.layouts
     }

@@ -83,12 +83,15 @@ impl Group {
     }
 
     fn internal_loads(&mut self, now: &Moment<'_>) {
-        self.bodies.sweep(Pass::Measure);
-        if self.laws.is_empty() {
+        let layouts = self.bodies.layouts();
+        if self.laws.is_empty() && !layouts.iter().any(|l| l.walled.contains(&true)) {
             self.bodies.sweep(Pass::Elastic);
             return;
         }
-        self.bodies.as_built();
+        self.bodies.sweep(Pass::Measure);
+        if !self.laws.is_empty() {
+            self.bodies.as_built();
+        }
         for l in &self.laws {
             l.hook.rest(now, &mut l.view(&mut self.bodies));
         }

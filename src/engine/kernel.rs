@@ -25,14 +25,14 @@ pub(crate) enum Pass {
     /// Internal forces on nodes \[N\] and torques on elements \[N m\] from stresses and couples; overwrites the loads
     /// (eq. 3.2, 3.3 without the inertial terms).
     Loads,
-    /// Both, for rods without laws.
+    /// All three, for rods without laws or walls.
     Elastic,
     /// Velocities and angular velocities after a time \[s\] under the present loads (eq. 2.16, 2.17).
     Kick(f64),
 }
 
 /// Blocks that go through several passes one after the other, in the cache.
-const CHUNK: usize = 4;
+const CHUNK: usize = 8;
 
 struct Sweep<'a>(&'a mut Bodies, Pass);
 
@@ -45,10 +45,13 @@ impl WithSimd for Sweep<'_> {
         match pass {
             Pass::Drift(dt) => bodies.drift::<1>(dt),
             Pass::DriftTwice(dt) => bodies.drift::<2>(dt),
-            Pass::Measure => bodies.measure(),
+            Pass::Measure => bodies.measure(bodies.blocks()),
             Pass::Strain => bodies.strain(bodies.blocks()),
-            Pass::Loads => bodies.by_chunks(|_, _| {}),
-            Pass::Elastic => bodies.by_chunks(|bodies, chunk| bodies.strain(chunk)),
+            Pass::Loads => {
+                bodies.contact_loads(bodies.blocks());
+                bodies.balance(bodies.blocks());
+            }
+            Pass::Elastic => bodies.by_chunks(),
             Pass::Kick(dt) => bodies.kick(dt),
         }
     }
@@ -122,18 +125,17 @@ impl Bodies {
 
     #[allow(clippy::needless_range_loop)] // a lane of every array alike
     #[inline(always)]
-    fn measure(&mut self) {
-        let all = self.blocks();
+    fn measure(&mut self, at: Span) {
         let state = &self.state;
-        let (position, next) = (state.position.blocks(all), state.position.after(all));
-        let (director, before) = (state.director.blocks(all), state.director.before(all));
-        let (element, element_before) = (self.element.blocks(all), self.element.before(all));
-        let built = self.reference_length.blocks(all);
-        let lengths = self.length.blocks_mut(all);
-        let mut tangents = self.tangent.blocks_mut(all);
-        let mut turns = self.rotation.blocks_mut(all);
+        let (position, next) = (state.position.blocks(at), state.position.after(at));
+        let (director, before) = (state.director.blocks(at), state.director.before(at));
+        let (element, element_before) = (self.element.blocks(at), self.element.before(at));
+        let built = self.reference_length.blocks(at);
+        let lengths = self.length.blocks_mut(at);
+        let mut tangents = self.tangent.blocks_mut(at);
+        let mut turns = self.rotation.blocks_mut(at);
         let mut far = ZERO;
-        for b in 0..all.count {
+        for b in 0..at.count {
             let (position, next) = (position.at(b), next.at(b));
             let (director, before) = (director.at(b), before.at(b));
             let (element, element_before) = (&element[b], &element_before[b]);
@@ -160,19 +162,20 @@ impl Bodies {
             turns.set(b, &turn);
         }
         if any(&far) {
-            self.measure_far();
+            self.measure_far(at);
         }
     }
 
     /// Rotation vectors where neighbours are turned by more than the power series is for.
     #[cold]
-    fn measure_far(&mut self) {
+    fn measure_far(&mut self, at: Span) {
         let Self { layouts, state, .. } = self;
+        let measured = at.start * LANES..(at.start + at.count) * LANES;
         for k in layouts.iter().flat_map(|l| l.first + 1..l.first + l.elements) {
             let [before, after] = [k - 1, k].map(|k| state.director.get(k));
             let [a, b] = [&before, &after].map(Rows::from);
             let (_, haversine) = rotation::sines(&a.product_transposed(&b));
-            if is_beyond(haversine, SMALL_HAVERSINE) {
+            if measured.contains(&k) && is_beyond(haversine, SMALL_HAVERSINE) {
                 self.rotation.set(k, rotation::between(&before, &after));
             }
         }
@@ -194,16 +197,17 @@ impl Bodies {
         }
     }
 
-    /// Internal loads, after `first` in each chunk.
+    /// From poses to internal loads.
     #[inline(always)]
-    fn by_chunks(&mut self, first: impl Fn(&mut Self, Span)) {
+    fn by_chunks(&mut self) {
         let Span { count, .. } = self.blocks();
         for start in (0..count).step_by(CHUNK) {
             let chunk = Span {
                 start,
                 count: CHUNK.min(count - start),
             };
-            first(self, chunk);
+            self.measure(chunk);
+            self.strain(chunk);
             self.contact_loads(chunk);
             // a block behind: it needs the station after its last
             self.balance(Span {

@@ -45,6 +45,7 @@ pub struct JointLoad {
 }
 
 /// Node and element of `place` (relative to the body), and the vector from node to site in material components.
+#[inline]
 fn resolve(body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
     let last = body.elements();
     match place {
@@ -57,6 +58,7 @@ fn resolve(body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
 
 impl Site {
     /// The site at `place` on `body`.
+    #[inline]
     pub fn of(body: &Body<'_>, place: Place) -> Self {
         let (node, element, lever) = resolve(body, place);
         let director = body.director(element);
@@ -73,6 +75,7 @@ impl Site {
 impl Wrench {
     /// The node and the element (relative to the body) that the wrench at `place` acts on, and its torque about that
     /// node, material frame \[N m\].
+    #[inline]
     pub(crate) fn at_station(&self, body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
         let (node, element, lever) = resolve(body, place);
         let torque = self.torque + lever.cross(&(body.director(element) * self.force));
