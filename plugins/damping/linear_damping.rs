@@ -57,11 +57,12 @@ struct Decay<'a> {
 /// Elements whose exponentials are computed together.
 const LANES: usize = 8;
 
+#[allow(clippy::needless_range_loop)] // iterators needn't be inlined, which vectors need
 #[inline(always)]
 fn exp_of_each(exponents: &[f64; LANES]) -> [f64; LANES] {
     let mut values = [0.0; LANES];
-    for (value, exponent) in values.iter_mut().zip(exponents) {
-        *value = exp(*exponent);
+    for l in 0..LANES {
+        values[l] = exp(exponents[l]);
     }
     values
 }
@@ -72,13 +73,13 @@ impl WithSimd for Decay<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, _: S) {
         let mut exponents = [0.0; LANES];
-        for (exponent, c) in exponents.iter_mut().zip(self.damping.translational.iter()) {
-            *exponent = -c * self.dt;
+        for j in 0..3 {
+            exponents[j] = -self.damping.translational[j] * self.dt;
         }
         let keep = exp_of_each(&exponents);
-        for (velocity, keep) in self.rates.velocity.iter_mut().zip(keep) {
-            for v in velocity.iter_mut() {
-                *v *= keep;
+        for j in 0..3 {
+            for v in self.rates.velocity[j].iter_mut() {
+                *v *= keep[j];
             }
         }
         let frames = self.rates.dilatation.len();
@@ -122,8 +123,8 @@ impl Decay<'_> {
                 weight[count - 1] += mass[frames];
             }
         }
-        for (j, c) in self.damping.rotational.iter().enumerate() {
-            let coefficient = -c * self.dt / 2.0;
+        for j in 0..3 {
+            let coefficient = -self.damping.rotational[j] * self.dt / 2.0;
             let inverse = &inverse_inertia[j][first..][..count];
             let mut exponents = [0.0; LANES];
             for l in 0..count {
