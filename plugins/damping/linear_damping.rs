@@ -123,14 +123,23 @@ impl Decay<'_> {
                 weight[count - 1] += mass[frames];
             }
         }
+        let (mut last, mut keep) = ([0.0_f64; LANES], [1.0; LANES]);
         for j in 0..3 {
             let coefficient = -self.damping.rotational[j] * self.dt / 2.0;
             let inverse = &inverse_inertia[j][first..][..count];
-            let mut exponents = [0.0; LANES];
+            let mut exponents = [0.0_f64; LANES];
             for l in 0..count {
                 exponents[l] = coefficient * weight[l] * inverse[l] * dilatation[l];
             }
-            let keep = exp_of_each(&exponents);
+            // about d1 and d2 of a round section it is the same
+            let mut different = 0;
+            for l in 0..LANES {
+                different |= exponents[l].to_bits() ^ last[l].to_bits();
+            }
+            if different != 0 {
+                keep = exp_of_each(&exponents);
+                last = exponents;
+            }
             let omega = &mut omega[j][first..][..count];
             for l in 0..count {
                 omega[l] *= keep[l];
