@@ -77,16 +77,16 @@ impl Joint for SpringDamper {
         if let Some(twist) = &self.twist {
             wanted = rotation::turned(&wanted, &(Vector3::z() * twist.at(now)));
         }
-        let to_a = a.director * b.director.transpose();
         let turn = rotation::between(&a.director, &wanted);
         let (stiffness, gap) = (*self.rotational_stiffness, *self.rotational_clearance);
         let torque = clearance::load(turn, stiffness, gap, SEATING.1)
-            + (to_a * b.omega - a.omega) * *self.rotational_damping;
+            + (a.director * b.director.tr_mul(&b.omega) - a.omega) * *self.rotational_damping;
         JointLoad {
             on_a: Wrench { force, torque },
             on_b: Wrench {
                 force: -force,
-                torque: self.rest.lever.cross(&(b.director * -force)) - to_a.tr_mul(&torque),
+                torque: self.rest.lever.cross(&(b.director * -force))
+                    - b.director * a.director.tr_mul(&torque),
             },
         }
     }

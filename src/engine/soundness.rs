@@ -45,7 +45,10 @@ impl WithSimd for PlainlySound<'_> {
     fn with_simd<S: Simd>(self, _: S) -> bool {
         let bodies = self.0;
         let all = bodies.blocks();
-        let (velocity, omega) = (bodies.state.velocity.blocks(all), bodies.state.omega.blocks(all));
+        let (velocity, omega) = (
+            bodies.state.velocity.blocks(all),
+            bodies.state.omega.blocks(all),
+        );
         let (dilatation, turn) = (bodies.dilatation.blocks(all), bodies.rotation.blocks(all));
         let mut faults = ZERO;
         for b in 0..all.count {

@@ -3,7 +3,9 @@
 //! Arrays begin with an entry or more before the first station and end with some after the last, so that blocks of
 //! stations and their neighbours can be read everywhere.
 
-use crate::lanes::{LANES, Lanes, Span, MatrixBlocks, MatrixBlocksMut, VectorBlocks, VectorBlocksMut};
+use crate::lanes::{
+    LANES, Lanes, MatrixBlocks, MatrixBlocksMut, Span, VectorBlocks, VectorBlocksMut,
+};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Index, IndexMut, Range};
 
@@ -265,19 +267,17 @@ impl Matrices {
     #[inline]
     pub fn get(&self, i: usize) -> Matrix3<f64> {
         let [a, b, c] = &self.rows;
-        Matrix3::from_rows(&[
-            a.get(i).transpose(),
-            b.get(i).transpose(),
-            c.get(i).transpose(),
-        ])
+        let (a, b, c) = (a.get(i), b.get(i), c.get(i));
+        Matrix3::new(a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z)
     }
 
     /// Replaces matrix `i`.
     #[inline]
     pub fn set(&mut self, i: usize, m: Matrix3<f64>) {
-        for (j, row) in self.rows.iter_mut().enumerate() {
-            row.set(i, m.row(j).transpose());
-        }
+        let [a, b, c] = &mut self.rows;
+        a.set(i, Vector3::new(m.m11, m.m12, m.m13));
+        b.set(i, Vector3::new(m.m21, m.m22, m.m23));
+        c.set(i, Vector3::new(m.m31, m.m32, m.m33));
     }
 
     /// Becomes the same as `other`, without allocating if it has its size.
