@@ -23,7 +23,7 @@ pub(crate) struct Applied {
     pub(crate) torque: Vector3<f64>,
 }
 
-#[inline]
+#[inline(always)]
 fn applied(group: usize, body: &Body<'_>, place: Place, wrench: &Wrench) -> Applied {
     let (node, element, torque) = wrench.at_station(body, place);
     Applied {

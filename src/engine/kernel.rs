@@ -88,20 +88,20 @@ impl Bodies {
             let (at, frame) = (position.at(b), director.at(b));
             let (mut moved, mut turned) = (Vector::ZERO, Matrix::ZERO);
             for l in 0..LANES {
-                let (mut at, mut frame) = (at.get(l), frame.get(l));
+                let (mut at, kept) = (at.get(l), frame.get(l));
+                let mut frame = kept;
                 let move_by = velocity.get(l) * dt;
                 let turn = omega.get(l) * -dt;
                 let squared = turn.squared();
                 let near = squared <= SMALL_SQUARE;
                 far[l] = if near { far[l] } else { 1.0 };
-                let squared = if near { squared } else { 0.0 };
-                let turn = rotation::exp_small(turn.only_if(near), squared);
+                let turn = rotation::exp_small(turn, squared);
                 for _ in 0..TIMES {
                     at = at + move_by;
                     frame = turn.product(&frame);
                 }
                 moved.set(l, at);
-                turned.set(l, &frame);
+                turned.set(l, &if near { frame } else { kept });
             }
             position.set(b, &moved);
             director.set(b, &turned);
@@ -447,12 +447,16 @@ mod tests {
                 [2e-3, 1.0, 0.1, 20.0].map(|size| Vector3::from_fn(|_, _| size * random()));
             state.position.add(k, shift);
             state.velocity.set(k, velocity);
+            // zeros in every second frame, which have signs
+            let turn = turn.component_mul(&Vector3::new(1.0, (k % 2) as f64, 0.0));
             let frame = rotation::turned(&state.director.get(k), &turn);
             let turn = if k == 3 { 9.0 } else { 1.0 };
             state
                 .director
                 .set(k, rotation::turned(&frame, &Vector3::new(turn, 0.0, 0.0)));
-            state.omega.set(k, omega * if k == 5 { 1e4 } else { 1.0 });
+            state
+                .omega
+                .set(k, omega * if k % 5 == 1 { 1e4 } else { 1.0 });
         }
         bodies
     }

@@ -19,6 +19,18 @@ pub fn between(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Vector3<f64> {
     log(&Rows::from(a).product_transposed(&b.into()).into())
 }
 
+/// World components of a vector to those in a frame.
+#[inline]
+pub fn to_material(frame: &Matrix3<f64>, world: &Vector3<f64>) -> Vector3<f64> {
+    Rows::from(frame).times(world.into()).into()
+}
+
+/// Components of a vector in a frame to world components.
+#[inline]
+pub fn to_world(frame: &Matrix3<f64>, material: &Vector3<f64>) -> Vector3<f64> {
+    Rows::from(frame).transposed_times(material.into()).into()
+}
+
 /// Squares of angles \[rad2\] up to which [`exp`] is a power series.
 pub(crate) const SMALL_SQUARE: f64 = 1.0 / 16.0;
 /// Squared sines of half angles up to which [`log`] is a power series: angles to 0.41 rad.

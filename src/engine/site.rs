@@ -1,6 +1,7 @@
 //! Places where bodies are joined or observed.
 
 use crate::bodies::End;
+use crate::rotation::{to_material, to_world};
 use crate::view::{Body, ReadBody};
 use nalgebra::{Matrix3, Vector3};
 
@@ -45,7 +46,7 @@ pub struct JointLoad {
 }
 
 /// Node and element of `place` (relative to the body), and the vector from node to site in material components.
-#[inline]
+#[inline(always)]
 fn resolve(body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
     let last = body.elements();
     match place {
@@ -64,8 +65,8 @@ impl Site {
         let director = body.director(element);
         let omega = body.omega(element);
         Self {
-            position: body.position(node) + director.tr_mul(&lever),
-            velocity: body.velocity(node) + director.tr_mul(&omega.cross(&lever)),
+            position: body.position(node) + to_world(&director, &lever),
+            velocity: body.velocity(node) + to_world(&director, &omega.cross(&lever)),
             director,
             omega,
         }
@@ -78,7 +79,7 @@ impl Wrench {
     #[inline]
     pub(crate) fn at_station(&self, body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
         let (node, element, lever) = resolve(body, place);
-        let torque = self.torque + lever.cross(&(body.director(element) * self.force));
+        let torque = self.torque + lever.cross(&to_material(&body.director(element), &self.force));
         (node, element, torque)
     }
 }
