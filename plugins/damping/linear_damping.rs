@@ -70,6 +70,7 @@ fn exp_of_each(exponents: &[f64; LANES]) -> [f64; LANES] {
 impl WithSimd for Decay<'_> {
     type Output = ();
 
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, _: S) {
         let mut exponents = [0.0; LANES];
@@ -95,6 +96,7 @@ impl WithSimd for Decay<'_> {
 
 impl Decay<'_> {
     /// Damps the angular velocities of at most [`LANES`] frames.
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     fn damp_frames(&mut self, first: usize, count: usize) {
         let RateSlices {

@@ -75,6 +75,7 @@ impl Bodies {
         }
     }
 
+    #[allow(clippy::needless_range_loop)] // a lane of every array alike
     #[inline(always)]
     fn drift<const TIMES: usize>(&mut self, dt: f64) {
         let all = self.blocks();
@@ -123,7 +124,7 @@ impl Bodies {
         }
     }
 
-    #[allow(clippy::needless_range_loop)] // a lane of every array alike
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
     fn measure(&mut self, at: Span) {
         let state = &self.state;
