@@ -74,10 +74,10 @@ fn report(what: &str, model: &mut Model, steps: u64) {
 }
 
 fn table(_: &mut Criterion) {
-    report("1 rod of 1000", &mut rods(1, 1000), 2);
+    report("1 rod of 1000", &mut rods(1, 1000), 10);
     let mut baseline = rods(1, 1000);
     baseline.system.use_baseline();
-    report("1 rod of 1000, baseline instructions", &mut baseline, 2);
+    report("1 rod of 1000, baseline instructions", &mut baseline, 10);
     for count in [1, 2] {
         let what = format!("100 rods of 50, {count} threads");
         threads(count).install(|| report(&what, &mut rods(100, 50), 20));

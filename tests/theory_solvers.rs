@@ -272,7 +272,7 @@ fn threads_change_no_bit() {
 fn vector_instructions_change_no_bit() {
     let baseline = |system: &mut System| {
         system.use_baseline();
-        one_by_one(system);
+        at_once(system);
     };
     assert_eq!(
         after_steps(true, 1, baseline),

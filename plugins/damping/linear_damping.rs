@@ -54,33 +54,97 @@ struct Decay<'a> {
     rates: RateSlices<'a>,
 }
 
+/// Elements whose exponentials are computed together.
+const LANES: usize = 8;
+
+#[allow(clippy::needless_range_loop)] // iterators needn't be inlined, which vectors need
+#[inline(always)]
+fn exp_of_each(exponents: &[f64; LANES]) -> [f64; LANES] {
+    let mut values = [0.0; LANES];
+    for l in 0..LANES {
+        values[l] = exp(exponents[l]);
+    }
+    values
+}
+
 impl WithSimd for Decay<'_> {
     type Output = ();
 
+    #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let (dt, rates) = (self.dt, self.rates);
-        let (frames, nodes) = (rates.dilatation.len(), rates.mass.len());
+    fn with_simd<S: Simd>(mut self, _: S) {
+        let mut exponents = [0.0; LANES];
         for j in 0..3 {
-            let keep = exp(-self.damping.translational[j] * dt);
-            for v in rates.velocity[j].iter_mut() {
-                *v *= keep;
+            exponents[j] = -self.damping.translational[j] * self.dt;
+        }
+        let keep = exp_of_each(&exponents);
+        for j in 0..3 {
+            for v in self.rates.velocity[j].iter_mut() {
+                *v *= keep[j];
             }
-            let (omega, inertia) = (&mut rates.omega[j][..frames], &rates.inertia[j][..frames]);
-            let coefficient = -self.damping.rotational[j] * dt;
-            if self.rigid {
-                omega[0] *= exp(coefficient * rates.mass[0] / inertia[0]);
-                continue;
-            }
-            let (before, after) = (&rates.mass[..frames], &rates.mass[1..=frames]);
-            for e in 0..frames {
-                let mass = (before[e] + after[e]) / 2.0;
-                omega[e] *= exp(coefficient * mass / inertia[e] * rates.dilatation[e]);
+        }
+        let frames = self.rates.dilatation.len();
+        let whole = frames - frames % LANES;
+        for first in (0..whole).step_by(LANES) {
+            self.damp_frames(first, LANES);
+        }
+        if whole < frames {
+            self.damp_frames(whole, frames - whole);
+        }
+    }
+}
+
+impl Decay<'_> {
+    /// Damps the angular velocities of at most [`LANES`] frames.
+    #[allow(clippy::needless_range_loop)]
+    #[inline(always)]
+    fn damp_frames(&mut self, first: usize, count: usize) {
+        let RateSlices {
+            omega,
+            mass,
+            inverse_inertia,
+            dilatation,
+            ..
+        } = &mut self.rates;
+        let frames = dilatation.len();
+        let dilatation = &dilatation[first..][..count];
+        // twice the mass of each frame
+        let mut weight = [0.0; LANES];
+        if self.rigid {
+            weight[0] = 2.0 * mass[0];
+        } else {
+            let (before, after) = (&mass[first..][..count], &mass[first + 1..][..count]);
+            for l in 0..count {
+                weight[l] = before[l] + after[l];
             }
             // end nodes belong to one element only
-            for (e, node) in [(0, 0), (frames - 1, nodes - 1)] {
-                let mass = rates.mass[node] / 2.0;
-                omega[e] *= exp(coefficient * mass / inertia[e] * rates.dilatation[e]);
+            if first == 0 {
+                weight[0] += mass[0];
+            }
+            if first + count == frames {
+                weight[count - 1] += mass[frames];
+            }
+        }
+        let (mut last, mut keep) = ([0.0_f64; LANES], [1.0; LANES]);
+        for j in 0..3 {
+            let coefficient = -self.damping.rotational[j] * self.dt / 2.0;
+            let inverse = &inverse_inertia[j][first..][..count];
+            let mut exponents = [0.0_f64; LANES];
+            for l in 0..count {
+                exponents[l] = coefficient * weight[l] * inverse[l] * dilatation[l];
+            }
+            // about d1 and d2 of a round section it is the same
+            let mut different = 0;
+            for l in 0..LANES {
+                different |= exponents[l].to_bits() ^ last[l].to_bits();
+            }
+            if different != 0 {
+                keep = exp_of_each(&exponents);
+                last = exponents;
+            }
+            let omega = &mut omega[j][first..][..count];
+            for l in 0..count {
+                omega[l] *= keep[l];
             }
         }
     }

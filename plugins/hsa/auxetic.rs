@@ -109,11 +109,23 @@ impl Auxetic {
     }
 
     /// Twist along the handedness of cell `v` [rad/m]: the motor turns the start, so twist and angle are opposite.
+    #[inline]
     fn winding(&self, rod: &LawView<'_>, v: usize) -> f64 {
         -self.handedness.sign() * rod.twist(v)
     }
 
+    /// The same, zero where there is no cell.
+    #[inline]
+    fn winding_or_zero(&self, rod: &LawView<'_>, v: usize) -> f64 {
+        if rod.cells().contains(&v) {
+            self.winding(rod, v)
+        } else {
+            0.0
+        }
+    }
+
     /// Share that element `e` has of the twist of each of its cells that exist.
+    #[inline]
     fn share(&self, rod: &LawView<'_>, e: usize) -> f64 {
         let whole = rod.cells().contains(&e) && rod.cells().contains(&(e + 1));
         match self.averaging {
@@ -124,9 +136,8 @@ impl Auxetic {
 
     /// Winding twist of element `e` for its rest length [rad/m].
     fn of_element(&self, rod: &LawView<'_>, e: usize) -> f64 {
-        let cells = [e, e + 1].into_iter().filter(|v| rod.cells().contains(v));
-        let sum: f64 = cells.map(|v| self.winding(rod, v)).sum();
-        sum * self.share(rod, e)
+        let [before, after] = [e, e + 1].map(|v| self.winding_or_zero(rod, v));
+        (before + after) * self.share(rod, e)
     }
 
     /// Winding twist of element `e` for its rigidities [rad/m], never negative.
@@ -156,8 +167,12 @@ impl RodLaw for Auxetic {
             twist,
         } = self.slopes;
         let trajectory = self.trajectory();
+        let mut before = self.winding_or_zero(rod, 0);
         for e in 0..rod.elements() {
-            let extension = trajectory.extension(self.of_element(rod, e));
+            let after = self.winding_or_zero(rod, e + 1);
+            let winding = (before + after) * self.share(rod, e);
+            before = after;
+            let extension = trajectory.extension(winding);
             rod.set_rest_length(e, rod.reference_length(e) * (1.0 + extension));
             if shear != 0.0 || axial != 0.0 {
                 let change = Vector3::new(shear, shear, axial) * self.for_rigidity(rod, e);

@@ -2,7 +2,8 @@
 
 use crate::clearance;
 use auxetica_engine::{
-    Inputs, Joint, JointLoad, Moment, NonNegative, Signal, Site, Wrench, register, rotation,
+    Inputs, Joint, JointLoad, Moment, NonNegative, Signal, Site, Wrench, register,
+    rotation::{self, to_material, to_world},
 };
 use nalgebra::{Matrix3, Vector3};
 use schemars::JsonSchema;
@@ -67,8 +68,8 @@ register!(
 
 impl Joint for SpringDamper {
     fn load(&self, now: &Moment<'_>, a: &Site, b: &Site) -> JointLoad {
-        let attachment = b.position + b.director.tr_mul(&self.rest.lever);
-        let speed = b.velocity + b.director.tr_mul(&b.omega.cross(&self.rest.lever));
+        let attachment = b.position + to_world(&b.director, &self.rest.lever);
+        let speed = b.velocity + to_world(&b.director, &b.omega.cross(&self.rest.lever));
         let apart = attachment - a.position;
         let force = clearance::load(apart, *self.stiffness, *self.clearance, SEATING.0)
             + (speed - a.velocity) * *self.damping;
@@ -77,16 +78,17 @@ impl Joint for SpringDamper {
         if let Some(twist) = &self.twist {
             wanted = rotation::turned(&wanted, &(Vector3::z() * twist.at(now)));
         }
-        let to_a = a.director * b.director.transpose();
         let turn = rotation::between(&a.director, &wanted);
         let (stiffness, gap) = (*self.rotational_stiffness, *self.rotational_clearance);
         let torque = clearance::load(turn, stiffness, gap, SEATING.1)
-            + (to_a * b.omega - a.omega) * *self.rotational_damping;
+            + (to_material(&a.director, &to_world(&b.director, &b.omega)) - a.omega)
+                * *self.rotational_damping;
         JointLoad {
             on_a: Wrench { force, torque },
             on_b: Wrench {
                 force: -force,
-                torque: self.rest.lever.cross(&(b.director * -force)) - to_a.tr_mul(&torque),
+                torque: self.rest.lever.cross(&(b.director * -force))
+                    - b.director * a.director.tr_mul(&torque),
             },
         }
     }

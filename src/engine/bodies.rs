@@ -67,21 +67,25 @@ pub struct Layout {
 
 impl Layout {
     /// Whether the body is a rod.
+    #[inline]
     pub fn is_rod(&self) -> bool {
         self.elements > 0
     }
 
     /// Number of nodes (and of stations).
+    #[inline]
     pub fn nodes(&self) -> usize {
         self.elements + 1
     }
 
     /// Number of frames: one an element, or the one of a rigid body.
+    #[inline]
     pub fn directors(&self) -> usize {
         self.elements.max(1)
     }
 
     /// Stations whose Voronoi cell exists.
+    #[inline]
     pub fn cells(&self) -> std::ops::Range<usize> {
         let first = if self.walled[0] { 0 } else { 1 };
         let past = self.elements + usize::from(self.walled[1]);
@@ -89,6 +93,7 @@ impl Layout {
     }
 
     /// Stations whose element exists.
+    #[inline]
     pub fn element_stations(&self) -> std::ops::Range<usize> {
         self.first..self.first + self.elements
     }
@@ -141,6 +146,8 @@ pub struct Bodies {
     // as built
     pub(crate) mass: Scalars,
     pub(crate) inertia: Vectors,
+    pub(crate) inverse_mass: Scalars,
+    pub(crate) inverse_inertia: Vectors,
     pub(crate) reference_length: Scalars,
     pub(crate) built_shear_stretch: Vectors,
     pub(crate) built_bend_twist: Vectors,
@@ -173,11 +180,13 @@ pub struct Bodies {
 
 impl Bodies {
     /// Number of stations.
+    #[inline]
     pub fn stations(&self) -> usize {
         self.mass.len()
     }
 
     /// Where the bodies lie.
+    #[inline]
     pub fn layouts(&self) -> &[Layout] {
         &self.layouts
     }
@@ -320,6 +329,8 @@ impl Bodies {
         self.cell.push(f64::from(s.whole_cell));
         self.mass.push(s.mass);
         self.inertia.push(s.inertia);
+        self.inverse_mass.push(1.0 / s.mass);
+        self.inverse_inertia.push(s.inertia.map(|j| 1.0 / j));
         self.reference_length.push(s.length);
         self.rest_length.push(s.length);
         self.twist_length.push(s.cell);

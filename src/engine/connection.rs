@@ -3,8 +3,8 @@
 use crate::group::{BodyId, Group};
 use crate::hooks::Joint;
 use crate::inputs::Moment;
-use crate::site::{Place, Site};
-use crate::view::Body;
+use crate::site::{Place, Site, Wrench};
+use crate::view::{Body, ReadBody};
 use nalgebra::Vector3;
 
 /// A joint and what it connects.
@@ -23,27 +23,30 @@ pub(crate) struct Applied {
     pub(crate) torque: Vector3<f64>,
 }
 
+#[inline(always)]
+fn applied(group: usize, body: &Body<'_>, place: Place, wrench: &Wrench) -> Applied {
+    let (node, element, torque) = wrench.at_station(body, place);
+    Applied {
+        group,
+        node: body.at(node),
+        element: body.at(element),
+        force: wrench.force,
+        torque,
+    }
+}
+
 impl Connection {
     /// The joint's loads at the present poses.
     pub(crate) fn applied(&self, groups: &[Group], now: &Moment<'_>) -> [Applied; 2] {
-        let bodies = self
-            .sides
-            .map(|(id, _)| Body::new(&groups[id.group].bodies, id.index));
-        let [a, b] = [0, 1].map(|side| Site::of(&bodies[side], self.sides[side].1));
-        let load = self.joint.load(now, &a, &b);
-        let wrenches = [load.on_a, load.on_b];
-        [0, 1].map(|side| {
-            let (id, place) = self.sides[side];
-            let (node, element, torque) = wrenches[side].at_station(&bodies[side], place);
-            let first = groups[id.group].bodies.layouts[id.index].first;
-            Applied {
-                group: id.group,
-                node: first + node,
-                element: first + element,
-                force: wrenches[side].force,
-                torque,
-            }
-        })
+        let body = |id: BodyId| Body::new(&groups[id.group].bodies, id.index);
+        let [(a, place_a), (b, place_b)] = self.sides;
+        let (body_a, body_b) = (body(a), body(b));
+        let (site_a, site_b) = (Site::of(&body_a, place_a), Site::of(&body_b, place_b));
+        let load = self.joint.load(now, &site_a, &site_b);
+        [
+            applied(a.group, &body_a, place_a, &load.on_a),
+            applied(b.group, &body_b, place_b, &load.on_b),
+        ]
     }
 
     /// Adds the joint's loads to both bodies.

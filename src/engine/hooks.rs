@@ -59,7 +59,8 @@ pub trait BoundaryCondition: Send + Sync {
     /// solver asks it which degrees of freedom are held.
     fn rates(&self, now: &Moment<'_>, body: &mut RateView<'_>);
 
-    /// Overwrites positions and frames of what is held.
+    /// Overwrites positions and frames of what is held, whatever they were: where several steps are taken at once, this
+    /// is asked for at the middle of each, and at the end of the last only.
     fn values(&self, _now: &Moment<'_>, _body: &mut PoseView<'_>) {}
 
     /// Adds loads (a motor torque, say).

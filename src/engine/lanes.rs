@@ -15,6 +15,22 @@ pub(crate) type Lanes = [f64; LANES];
 /// Zero for each station.
 pub(crate) const ZERO: Lanes = [0.0; LANES];
 
+/// Neighbouring blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct Span {
+    pub(crate) start: usize,
+    pub(crate) count: usize,
+}
+
+impl Span {
+    /// These and the block after them.
+    #[inline(always)]
+    pub(crate) fn and_next(self) -> Self {
+        let count = self.count + 1;
+        Self { count, ..self }
+    }
+}
+
 /// Three numbers.
 #[derive(Clone, Copy)]
 pub(crate) struct Triple {
@@ -156,19 +172,37 @@ impl From<Rows> for Matrix3<f64> {
     }
 }
 
-/// A vector of each station of a block.
+/// A vector of each station of a block, where it is stored: a copy of many blocks would be a call.
 #[derive(Clone, Copy)]
-pub(crate) struct VectorLanes(pub(crate) [Lanes; 3]);
+pub(crate) struct VectorLanes<'a>([&'a Lanes; 3]);
 
-impl VectorLanes {
-    pub(crate) const ZERO: Self = Self([ZERO; 3]);
-
+impl VectorLanes<'_> {
     /// Vector of lane `l`.
     #[inline(always)]
-    pub(crate) fn get(&self, l: usize) -> Triple {
-        let [x, y, z] = &self.0;
+    pub(crate) fn get(self, l: usize) -> Triple {
+        let [x, y, z] = self.0;
         triple(x[l], y[l], z[l])
     }
+}
+
+/// A matrix of each station of a block, where it is stored.
+#[derive(Clone, Copy)]
+pub(crate) struct MatrixLanes<'a>([VectorLanes<'a>; 3]);
+
+impl MatrixLanes<'_> {
+    /// Matrix of lane `l`.
+    #[inline(always)]
+    pub(crate) fn get(self, l: usize) -> Rows {
+        let [a, b, c] = self.0;
+        Rows([a.get(l), b.get(l), c.get(l)])
+    }
+}
+
+/// A vector of each station of a block, computed.
+pub(crate) struct Vector([Lanes; 3]);
+
+impl Vector {
+    pub(crate) const ZERO: Self = Self([ZERO; 3]);
 
     /// Replaces the vector of lane `l`.
     #[inline(always)]
@@ -178,19 +212,11 @@ impl VectorLanes {
     }
 }
 
-/// A matrix of each station of a block.
-#[derive(Clone, Copy)]
-pub(crate) struct MatrixLanes(pub(crate) [VectorLanes; 3]);
+/// A matrix of each station of a block, computed.
+pub(crate) struct Matrix([Vector; 3]);
 
-impl MatrixLanes {
-    pub(crate) const ZERO: Self = Self([VectorLanes::ZERO; 3]);
-
-    /// Matrix of lane `l`.
-    #[inline(always)]
-    pub(crate) fn get(&self, l: usize) -> Rows {
-        let [a, b, c] = &self.0;
-        Rows([a.get(l), b.get(l), c.get(l)])
-    }
+impl Matrix {
+    pub(crate) const ZERO: Self = Self([Vector::ZERO; 3]);
 
     /// Replaces the matrix of lane `l`.
     #[inline(always)]
@@ -199,5 +225,87 @@ impl MatrixLanes {
         a.set(l, rows[0]);
         b.set(l, rows[1]);
         c.set(l, rows[2]);
+    }
+}
+
+/// Vectors by blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct VectorBlocks<'a>(pub(crate) [&'a [Lanes]; 3]);
+
+impl<'a> VectorBlocks<'a> {
+    /// Block `b`.
+    #[inline(always)]
+    pub(crate) fn at(&self, b: usize) -> VectorLanes<'a> {
+        let [x, y, z] = self.0;
+        VectorLanes([&x[b], &y[b], &z[b]])
+    }
+}
+
+/// The stations after those of block `b`.
+#[inline(always)]
+fn after(blocks: &[Lanes], b: usize) -> &Lanes {
+    let pair = blocks[b..b + 2].as_flattened();
+    pair[1..].first_chunk().expect("two blocks hold one more")
+}
+
+/// Vectors by blocks, to be changed.
+pub(crate) struct VectorBlocksMut<'a>(pub(crate) [&'a mut [Lanes]; 3]);
+
+impl VectorBlocksMut<'_> {
+    /// Block `b`.
+    #[inline(always)]
+    pub(crate) fn at(&self, b: usize) -> VectorLanes<'_> {
+        let [x, y, z] = &self.0;
+        VectorLanes([&x[b], &y[b], &z[b]])
+    }
+
+    /// The stations after those of block `b`.
+    #[inline(always)]
+    pub(crate) fn after(&self, b: usize) -> VectorLanes<'_> {
+        let [x, y, z] = &self.0;
+        VectorLanes([after(x, b), after(y, b), after(z, b)])
+    }
+
+    /// Replaces block `b`.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, b: usize, v: &Vector) {
+        let ([x, y, z], [new_x, new_y, new_z]) = (&mut self.0, &v.0);
+        x[b] = *new_x;
+        y[b] = *new_y;
+        z[b] = *new_z;
+    }
+}
+
+/// Matrices by blocks.
+#[derive(Clone, Copy)]
+pub(crate) struct MatrixBlocks<'a>(pub(crate) [VectorBlocks<'a>; 3]);
+
+impl<'a> MatrixBlocks<'a> {
+    /// Block `b`.
+    #[inline(always)]
+    pub(crate) fn at(&self, b: usize) -> MatrixLanes<'a> {
+        let [x, y, z] = &self.0;
+        MatrixLanes([x.at(b), y.at(b), z.at(b)])
+    }
+}
+
+/// Matrices by blocks, to be changed.
+pub(crate) struct MatrixBlocksMut<'a>(pub(crate) [VectorBlocksMut<'a>; 3]);
+
+impl MatrixBlocksMut<'_> {
+    /// Block `b`.
+    #[inline(always)]
+    pub(crate) fn at(&self, b: usize) -> MatrixLanes<'_> {
+        let [x, y, z] = &self.0;
+        MatrixLanes([x.at(b), y.at(b), z.at(b)])
+    }
+
+    /// Replaces block `b`.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, b: usize, m: &Matrix) {
+        let ([x, y, z], [new_x, new_y, new_z]) = (&mut self.0, &m.0);
+        x.set(b, new_x);
+        y.set(b, new_y);
+        z.set(b, new_z);
     }
 }

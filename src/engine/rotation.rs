@@ -19,6 +19,18 @@ pub fn between(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Vector3<f64> {
     log(&Rows::from(a).product_transposed(&b.into()).into())
 }
 
+/// World components of a vector to those in a frame.
+#[inline]
+pub fn to_material(frame: &Matrix3<f64>, world: &Vector3<f64>) -> Vector3<f64> {
+    Rows::from(frame).times(world.into()).into()
+}
+
+/// Components of a vector in a frame to world components.
+#[inline]
+pub fn to_world(frame: &Matrix3<f64>, material: &Vector3<f64>) -> Vector3<f64> {
+    Rows::from(frame).transposed_times(material.into()).into()
+}
+
 /// Squares of angles \[rad2\] up to which [`exp`] is a power series.
 pub(crate) const SMALL_SQUARE: f64 = 1.0 / 16.0;
 /// Squared sines of half angles up to which [`log`] is a power series: angles to 0.41 rad.
@@ -51,14 +63,16 @@ const fn alternating(first: f64, from: f64) -> [f64; 6] {
     c
 }
 
-/// Horner's rule.
+/// Even and odd powers apart, each by Horner's rule: two short chains of operations take half the time of one long one.
 #[inline(always)]
 pub(crate) fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
-    let mut value = coefficients[N - 1];
-    for i in (0..N - 1).rev() {
-        value = value * x + coefficients[i];
+    let square = x * x;
+    let (mut last, mut before) = (coefficients[N - 1], coefficients[N - 2]);
+    for i in (0..N / 2 - 1).rev() {
+        last = last * square + coefficients[2 * i + 1];
+        before = before * square + coefficients[2 * i];
     }
-    value
+    before + last * x
 }
 
 /// `1 + sinc [theta]x + cosc [theta]x^2` (Rodrigues).

@@ -1,6 +1,7 @@
 //! Places where bodies are joined or observed.
 
 use crate::bodies::End;
+use crate::rotation::{to_material, to_world};
 use crate::view::{Body, ReadBody};
 use nalgebra::{Matrix3, Vector3};
 
@@ -45,6 +46,7 @@ pub struct JointLoad {
 }
 
 /// Node and element of `place` (relative to the body), and the vector from node to site in material components.
+#[inline(always)]
 fn resolve(body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
     let last = body.elements();
     match place {
@@ -57,13 +59,14 @@ fn resolve(body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
 
 impl Site {
     /// The site at `place` on `body`.
+    #[inline]
     pub fn of(body: &Body<'_>, place: Place) -> Self {
         let (node, element, lever) = resolve(body, place);
         let director = body.director(element);
         let omega = body.omega(element);
         Self {
-            position: body.position(node) + director.tr_mul(&lever),
-            velocity: body.velocity(node) + director.tr_mul(&omega.cross(&lever)),
+            position: body.position(node) + to_world(&director, &lever),
+            velocity: body.velocity(node) + to_world(&director, &omega.cross(&lever)),
             director,
             omega,
         }
@@ -73,9 +76,10 @@ impl Site {
 impl Wrench {
     /// The node and the element (relative to the body) that the wrench at `place` acts on, and its torque about that
     /// node, material frame \[N m\].
+    #[inline]
     pub(crate) fn at_station(&self, body: &Body<'_>, place: Place) -> (usize, usize, Vector3<f64>) {
         let (node, element, lever) = resolve(body, place);
-        let torque = self.torque + lever.cross(&(body.director(element) * self.force));
+        let torque = self.torque + lever.cross(&to_material(&body.director(element), &self.force));
         (node, element, torque)
     }
 }

@@ -44,10 +44,16 @@ impl WithSimd for PlainlySound<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> bool {
         let bodies = self.0;
+        let all = bodies.blocks();
+        let (velocity, omega) = (
+            bodies.state.velocity.blocks(all),
+            bodies.state.omega.blocks(all),
+        );
+        let (dilatation, turn) = (bodies.dilatation.blocks(all), bodies.rotation.blocks(all));
         let mut faults = ZERO;
-        for k in bodies.blocks() {
-            let (velocity, omega) = (bodies.state.velocity.lanes(k), bodies.state.omega.lanes(k));
-            let (dilatation, turn) = (bodies.dilatation.lanes(k), bodies.rotation.lanes(k));
+        for b in 0..all.count {
+            let (velocity, omega) = (velocity.at(b), omega.at(b));
+            let (dilatation, turn) = (&dilatation[b], turn.at(b));
             for l in 0..LANES {
                 // zero, or no number where a rate is infinite or none
                 let zero = (velocity.get(l) * 0.0 + omega.get(l) * 0.0).dot(triple(1.0, 1.0, 1.0));

@@ -32,27 +32,41 @@ pub struct BlowUp {
 
 impl Group {
     /// The first part of a step: half a step of positions and frames, boundary values at the middle, loads but those of
-    /// joints.
+    /// joints. After a step that wasn't ended its second half of a step of positions and frames comes first.
     fn before_joints(&mut self, inputs: &Inputs, time: f64, dt: f64) {
         let middle = Moment {
             time: time + dt / 2.0,
             inputs,
         };
-        self.bodies.sweep(Pass::Drift(dt / 2.0));
+        // What is held is set anew, hence needn't be at the end of the step before.
+        let drift = if std::mem::take(&mut self.midway) {
+            Pass::DriftTwice(dt / 2.0)
+        } else {
+            Pass::Drift(dt / 2.0)
+        };
+        self.bodies.sweep(drift);
         self.set_values(&middle);
         self.loads(&middle);
     }
 
-    /// The rest of a step: rates, damping, boundary rates, and half a step of positions and frames again.
+    /// Rates, damping and boundary rates.
     fn after_joints(&mut self, inputs: &Inputs, time: f64, dt: f64) {
-        let at = |time| Moment { time, inputs };
-        self.remember(&at(time + dt / 2.0));
-        self.kick(&at(time + dt / 2.0), dt);
+        let middle = Moment {
+            time: time + dt / 2.0,
+            inputs,
+        };
+        self.remember(&middle);
+        self.kick(&middle, dt);
         self.sound = self.bodies.is_sound();
         // Poses stay sound where rates aren't, so that the cause can be looked for.
-        if self.sound {
+        self.midway = self.sound;
+    }
+
+    /// The rest of a step: half a step of positions and frames again, and boundary values at the end.
+    fn end_step(&mut self, inputs: &Inputs, time: f64, dt: f64) {
+        if std::mem::take(&mut self.midway) {
             self.bodies.sweep(Pass::Drift(dt / 2.0));
-            self.set_values(&at(time + dt));
+            self.set_values(&Moment { time, inputs });
         }
     }
 }
@@ -65,36 +79,55 @@ impl System {
     /// 4. rates, damping, boundary rates;
     /// 5. half a step of positions and frames, boundary values at the end.
     pub fn step(&mut self, dt: f64) -> Result<(), BlowUp> {
+        self.advance(dt, 1)
+    }
+
+    /// Steps of which the last isn't ended.
+    fn step_midway(&mut self, dt: f64, count: u64) -> Result<(), BlowUp> {
+        for _ in 0..count {
+            let Self {
+                groups,
+                joints,
+                inputs,
+                time,
+                ..
+            } = self;
+            each(groups, |group| group.before_joints(inputs, *time, dt));
+            let middle = Moment {
+                time: *time + dt / 2.0,
+                inputs,
+            };
+            for joint in joints.iter() {
+                joint.apply(groups, &middle);
+            }
+            each(groups, |group| group.after_joints(inputs, *time, dt));
+            self.time += dt;
+            self.steps += 1;
+            if !self.groups.iter().all(|g| g.sound) {
+                return Err(self.blow_up(dt));
+            }
+        }
+        Ok(())
+    }
+
+    /// `count` steps together.
+    fn steps_of_all(&mut self, dt: f64, count: u64) -> Result<(), BlowUp> {
+        let stepped = self.step_midway(dt, count);
         let Self {
             groups,
-            joints,
             inputs,
             time,
             ..
         } = self;
-        each(groups, |group| group.before_joints(inputs, *time, dt));
-        let middle = Moment {
-            time: *time + dt / 2.0,
-            inputs,
-        };
-        for joint in joints.iter() {
-            joint.apply(groups, &middle);
-        }
-        each(groups, |group| group.after_joints(inputs, *time, dt));
-        self.time += dt;
-        self.steps += 1;
-        if self.groups.iter().all(|g| g.sound) {
-            Ok(())
-        } else {
-            Err(self.blow_up(dt))
-        }
+        each(groups, |group| group.end_step(inputs, *time, dt));
+        stepped
     }
 
     /// `count` steps of `dt` \[s\], to the same bits as by [`System::step`]. Groups that no joint connects take all of
     /// them one after the other, in parallel and each in its core's cache.
     pub fn advance(&mut self, dt: f64, count: u64) -> Result<(), BlowUp> {
         if count == 1 || self.groups.len() == 1 || !self.joints.is_empty() {
-            return (0..count).try_for_each(|_| self.step(dt));
+            return self.steps_of_all(dt, count);
         }
         let Self { inputs, time, .. } = self;
         let end = |start| (0..count).fold(start, |time: f64, _| time + dt);
@@ -109,6 +142,7 @@ impl System {
                 }
                 time += dt;
             }
+            group.end_step(inputs, time, dt);
         });
         if self.groups.iter().all(|g| g.sound) {
             self.time = end(self.time);
@@ -119,7 +153,7 @@ impl System {
         for group in &mut self.groups {
             group.bodies.state.copy_from(&group.start);
         }
-        (0..count).try_for_each(|_| self.step(dt))
+        self.steps_of_all(dt, count)
     }
 
     #[cold]

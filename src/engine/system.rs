@@ -48,7 +48,10 @@ impl System {
     pub fn add_rod(&mut self, rod: &Rod) -> Result<BodyId, String> {
         rod.check()?;
         let group = self.room(rod.elements() + 1);
-        let index = self.groups[group].bodies.push_rod(rod);
+        let bodies = &mut self.groups[group].bodies;
+        let index = bodies.push_rod(rod);
+        // A copy of grown arrays has no room to spare, so that they lie one after the other.
+        *bodies = bodies.clone();
         Ok(self.register(BodyId { group, index }))
     }
 

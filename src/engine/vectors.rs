@@ -1,19 +1,26 @@
 //! Numbers, 3-vectors and 3x3 matrices, one a station: flat arrays that are read one by one or eight stations at once.
 //!
-//! Arrays begin with one entry before the first station and end with some after the last, so that blocks of stations
-//! and their neighbours can be read everywhere.
+//! Arrays begin with an entry or more before the first station and end with some after the last, so that blocks of
+//! stations and their neighbours can be read everywhere.
 
-use crate::lanes::{LANES, Lanes, MatrixLanes, VectorLanes};
+use crate::lanes::{
+    LANES, Lanes, MatrixBlocks, MatrixBlocksMut, Span, VectorBlocks, VectorBlocksMut,
+};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Index, IndexMut, Range};
 
 /// Numbers, one a station.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Scalars {
-    /// A zero, the numbers, and the last of them again up to the end of the block after theirs.
+    /// At least a zero, the numbers, and the last of them again up to the end of the block after theirs.
     padded: Vec<f64>,
+    /// Where the first number is: at the start of a cache line, since blocks across two of them are slow.
+    first: usize,
     len: usize,
 }
+
+/// Bytes of a cache line, and of a block.
+const LINE: usize = LANES * size_of::<f64>();
 
 impl Scalars {
     /// How many there are.
@@ -28,60 +35,94 @@ impl Scalars {
 
     /// Appends a number.
     pub fn push(&mut self, value: f64) {
+        let blocks = (self.len + 1).div_ceil(LANES) + 1;
+        // An odd number of lines, lest arrays that are allocated one after the other share their places in the cache.
+        let lines = (1 + blocks) | 1;
+        self.padded.resize(lines * LANES, 0.0);
+        self.align();
         self.len += 1;
-        let blocks = self.len.div_ceil(LANES) + 1;
-        self.padded.resize(1 + blocks * LANES, 0.0);
-        self.padded[self.len..].fill(value);
+        self.padded[self.first + self.len - 1..].fill(value);
+    }
+
+    /// Moves all to where the first number begins a cache line.
+    fn align(&mut self) {
+        let first = 1 + self.padded[1..].as_ptr().align_offset(LINE).min(LANES - 1);
+        self.padded
+            .copy_within(self.first..self.first + self.len, first);
+        self.padded[..first].fill(0.0);
+        self.first = first;
+        if let Some(last) = self.as_slice().last().copied() {
+            self.padded[first + self.len..].fill(last);
+        }
     }
 
     /// The numbers.
     #[inline]
     pub fn as_slice(&self) -> &[f64] {
-        self.padded.get(1..=self.len).unwrap_or_default()
+        let range = self.first..self.first + self.len;
+        self.padded.get(range).unwrap_or_default()
     }
 
     /// The numbers.
     #[inline]
     pub fn as_mut_slice(&mut self) -> &mut [f64] {
-        self.padded.get_mut(1..=self.len).unwrap_or_default()
+        let range = self.first..self.first + self.len;
+        self.padded.get_mut(range).unwrap_or_default()
     }
 
     /// Becomes the same as `other`, without allocating if it has its size.
     pub fn copy_from(&mut self, other: &Self) {
-        self.padded.clone_from(&other.padded);
-        self.len = other.len;
+        if self.len != other.len {
+            *self = other.clone();
+        }
+        let used = self.padded.len().saturating_sub(LANES);
+        self.padded[self.first..][..used].copy_from_slice(&other.padded[other.first..][..used]);
     }
 
+    /// Blocks from `shift - 1` stations after theirs on.
     #[inline(always)]
-    fn block(&self, at: usize) -> Lanes {
-        *self.padded[at..]
-            .first_chunk()
-            .expect("arrays end after their last block")
+    fn shifted(&self, shift: usize, at: Span) -> &[Lanes] {
+        let first = self.first - 1 + shift + at.start * LANES;
+        &self.padded[first..].as_chunks().0[..at.count]
     }
 
-    /// Stations `k..k + LANES`.
+    /// The blocks.
     #[inline(always)]
-    pub(crate) fn lanes(&self, k: usize) -> Lanes {
-        self.block(k + 1)
+    pub(crate) fn blocks(&self, at: Span) -> &[Lanes] {
+        self.shifted(1, at)
     }
 
-    /// The stations before those of [`Scalars::lanes`].
+    /// The stations before those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, k: usize) -> Lanes {
-        self.block(k)
+    pub(crate) fn before(&self, at: Span) -> &[Lanes] {
+        self.shifted(0, at)
     }
 
-    /// The stations after those of [`Scalars::lanes`].
+    /// The stations after those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, k: usize) -> Lanes {
-        self.block(k + 2)
+    pub(crate) fn after(&self, at: Span) -> &[Lanes] {
+        self.shifted(2, at)
     }
 
-    /// Replaces stations `k..k + LANES`.
+    /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn set_lanes(&mut self, k: usize, lanes: &Lanes) {
-        let block = self.padded[k + 1..].first_chunk_mut();
-        *block.expect("arrays end after their last block") = *lanes;
+    pub(crate) fn blocks_mut(&mut self, at: Span) -> &mut [Lanes] {
+        let first = self.first + at.start * LANES;
+        &mut self.padded[first..].as_chunks_mut().0[..at.count]
+    }
+}
+
+impl Clone for Scalars {
+    fn clone(&self) -> Self {
+        let mut clone = Self {
+            padded: self.padded.clone(),
+            first: self.first,
+            len: self.len,
+        };
+        if !clone.is_empty() {
+            clone.align();
+        }
+        clone
     }
 }
 
@@ -95,14 +136,14 @@ impl Index<usize> for Scalars {
     type Output = f64;
     #[inline]
     fn index(&self, i: usize) -> &f64 {
-        &self.padded[i + 1]
+        &self.padded[self.first + i]
     }
 }
 
 impl IndexMut<usize> for Scalars {
     #[inline]
     fn index_mut(&mut self, i: usize) -> &mut f64 {
-        &mut self.padded[i + 1]
+        &mut self.padded[self.first + i]
     }
 }
 
@@ -167,9 +208,8 @@ impl Vectors {
     /// The components of the vectors `range`, each one slice.
     #[inline]
     pub fn slices(&self, range: Range<usize>) -> [&[f64]; 3] {
-        self.components
-            .each_ref()
-            .map(|c| &c.as_slice()[range.clone()])
+        let [x, y, z] = &self.components;
+        [x, y, z].map(|c| &c.as_slice()[range.clone()])
     }
 
     /// The components of the vectors `range`, each one slice.
@@ -186,34 +226,32 @@ impl Vectors {
         self.components.iter().map(sum).sum::<f64>() == 0.0
     }
 
-    /// Stations `k..k + LANES`.
+    /// The blocks.
     #[inline(always)]
-    pub(crate) fn lanes(&self, k: usize) -> VectorLanes {
+    pub(crate) fn blocks(&self, at: Span) -> VectorBlocks<'_> {
         let [x, y, z] = &self.components;
-        VectorLanes([x.lanes(k), y.lanes(k), z.lanes(k)])
+        VectorBlocks([x.blocks(at), y.blocks(at), z.blocks(at)])
     }
 
-    /// The stations before those of [`Vectors::lanes`].
+    /// The stations before those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, k: usize) -> VectorLanes {
+    pub(crate) fn before(&self, at: Span) -> VectorBlocks<'_> {
         let [x, y, z] = &self.components;
-        VectorLanes([x.before(k), y.before(k), z.before(k)])
+        VectorBlocks([x.before(at), y.before(at), z.before(at)])
     }
 
-    /// The stations after those of [`Vectors::lanes`].
+    /// The stations after those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, k: usize) -> VectorLanes {
+    pub(crate) fn after(&self, at: Span) -> VectorBlocks<'_> {
         let [x, y, z] = &self.components;
-        VectorLanes([x.after(k), y.after(k), z.after(k)])
+        VectorBlocks([x.after(at), y.after(at), z.after(at)])
     }
 
-    /// Replaces stations `k..k + LANES`.
+    /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn set_lanes(&mut self, k: usize, lanes: &VectorLanes) {
+    pub(crate) fn blocks_mut(&mut self, at: Span) -> VectorBlocksMut<'_> {
         let [x, y, z] = &mut self.components;
-        x.set_lanes(k, &lanes.0[0]);
-        y.set_lanes(k, &lanes.0[1]);
-        z.set_lanes(k, &lanes.0[2]);
+        VectorBlocksMut([x.blocks_mut(at), y.blocks_mut(at), z.blocks_mut(at)])
     }
 }
 
@@ -229,19 +267,17 @@ impl Matrices {
     #[inline]
     pub fn get(&self, i: usize) -> Matrix3<f64> {
         let [a, b, c] = &self.rows;
-        Matrix3::from_rows(&[
-            a.get(i).transpose(),
-            b.get(i).transpose(),
-            c.get(i).transpose(),
-        ])
+        let (a, b, c) = (a.get(i), b.get(i), c.get(i));
+        Matrix3::new(a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z)
     }
 
     /// Replaces matrix `i`.
     #[inline]
     pub fn set(&mut self, i: usize, m: Matrix3<f64>) {
-        for (j, row) in self.rows.iter_mut().enumerate() {
-            row.set(i, m.row(j).transpose());
-        }
+        let [a, b, c] = &mut self.rows;
+        a.set(i, Vector3::new(m.m11, m.m12, m.m13));
+        b.set(i, Vector3::new(m.m21, m.m22, m.m23));
+        c.set(i, Vector3::new(m.m31, m.m32, m.m33));
     }
 
     /// Becomes the same as `other`, without allocating if it has its size.
@@ -258,26 +294,24 @@ impl Matrices {
         }
     }
 
-    /// Stations `k..k + LANES`.
+    /// The blocks.
     #[inline(always)]
-    pub(crate) fn lanes(&self, k: usize) -> MatrixLanes {
+    pub(crate) fn blocks(&self, at: Span) -> MatrixBlocks<'_> {
         let [a, b, c] = &self.rows;
-        MatrixLanes([a.lanes(k), b.lanes(k), c.lanes(k)])
+        MatrixBlocks([a.blocks(at), b.blocks(at), c.blocks(at)])
     }
 
-    /// The stations before those of [`Matrices::lanes`].
+    /// The stations before those of [`Matrices::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, k: usize) -> MatrixLanes {
+    pub(crate) fn before(&self, at: Span) -> MatrixBlocks<'_> {
         let [a, b, c] = &self.rows;
-        MatrixLanes([a.before(k), b.before(k), c.before(k)])
+        MatrixBlocks([a.before(at), b.before(at), c.before(at)])
     }
 
-    /// Replaces stations `k..k + LANES`.
+    /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn set_lanes(&mut self, k: usize, lanes: &MatrixLanes) {
+    pub(crate) fn blocks_mut(&mut self, at: Span) -> MatrixBlocksMut<'_> {
         let [a, b, c] = &mut self.rows;
-        a.set_lanes(k, &lanes.0[0]);
-        b.set_lanes(k, &lanes.0[1]);
-        c.set_lanes(k, &lanes.0[2]);
+        MatrixBlocksMut([a.blocks_mut(at), b.blocks_mut(at), c.blocks_mut(at)])
     }
 }
