@@ -1,6 +1,8 @@
 //! Functions that loops over arrays are compiled to vector instructions with; those of the library take one number at a
 //! time.
 
+use crate::rotation::polynomial;
+
 /// 1/n!.
 const INVERSE_FACTORIALS: [f64; 14] = {
     let mut c = [1.0; 14];
@@ -25,9 +27,7 @@ pub fn exp(x: f64) -> f64 {
     let whole = shifted - ROUND;
     let rest = (x - whole * LN_2[0]) - whole * LN_2[1];
     let power_of_two = f64::from_bits(shifted.to_bits().wrapping_add(1023) << 52);
-    // by Horner's rule, which rounds best: what a decay is off by adds up over all steps
-    let terms = INVERSE_FACTORIALS.iter().rev();
-    terms.fold(0.0, |value, c| value * rest + c) * power_of_two
+    polynomial(&INVERSE_FACTORIALS, rest) * power_of_two
 }
 
 #[cfg(test)]

@@ -63,16 +63,14 @@ const fn alternating(first: f64, from: f64) -> [f64; 6] {
     c
 }
 
-/// Even and odd powers apart, each by Horner's rule: two short chains of operations take half the time of one long one.
+/// Horner's rule.
 #[inline(always)]
 pub(crate) fn polynomial<const N: usize>(coefficients: &[f64; N], x: f64) -> f64 {
-    let square = x * x;
-    let (mut last, mut before) = (coefficients[N - 1], coefficients[N - 2]);
-    for i in (0..N / 2 - 1).rev() {
-        last = last * square + coefficients[2 * i + 1];
-        before = before * square + coefficients[2 * i];
+    let mut value = coefficients[N - 1];
+    for i in (0..N - 1).rev() {
+        value = value * x + coefficients[i];
     }
-    before + last * x
+    value
 }
 
 /// `1 + sinc [theta]x + cosc [theta]x^2` (Rodrigues).
