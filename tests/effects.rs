@@ -2,6 +2,7 @@
 //! its typical value.
 
 use auxetica::config::Source;
+use auxetica::engine::scenario::Turn;
 use auxetica::engine::{Model, SteadyOptions, SteadySolver};
 use auxetica::identify::{Effect, Robot};
 use std::path::Path;
@@ -38,6 +39,14 @@ fn places(source: &Source) -> Vec<f64> {
             let seen = nalgebra::Rotation3::from_scaled_axis(turn) * point + shift;
             all.extend(seen.iter());
         }
+        // what turning motors report, ten thousand to the metre
+        let motors = model.motor_loads.as_ref().expect("they report loads");
+        let turn = Turn {
+            sense: 1.0,
+            now: true,
+        };
+        let torques = model.motor_torques();
+        all.extend((0..4).map(|i| 1e-4 * motors.reading(i, torques[i], turn)));
     }
     all
 }

@@ -24,7 +24,10 @@ fn strong(q: &Quantity) -> f64 {
 fn forms(robot: &Robot) -> Vec<(&'static str, Variant)> {
     let mut seen = std::collections::BTreeSet::new();
     let mut forms = Vec::new();
-    for effect in <dyn Effect>::all() {
+    let mut effects = <dyn Effect>::all();
+    // others show in loads only: `motor_loads`
+    effects.retain(|effect| !effect.in_loads());
+    for effect in effects {
         for form in effect.variants(robot) {
             let kind = form.name.trim_end_matches(|c: char| c.is_ascii_digit());
             if seen.insert((effect.id(), kind.to_owned())) {

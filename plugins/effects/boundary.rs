@@ -44,6 +44,28 @@ effect!(
 );
 
 effect!(
+    /// Friction in motors and gears.
+    MotorFriction, "motor_friction", Boundary,
+    "motors and gears rub: a motor works against it as long as it turns, and holds part of it when it stops",
+    "tau_motor = tau + (f + mu |tau|) sgn(w), of which a share of friction stays at rest",
+    "let a motor turn without its rod, both ways",
+    "Coulomb friction",
+    |_robot| vec![
+        Variant::new("always the same")
+            .number("friction", "N m", (0.0, 0.05), (0.0, 5.0))
+            .number("share at rest", "-", (0.0, 0.5), (0.0, 1.0))
+            .set("motor_loads.friction", "{0}")
+            .set("motor_loads.held", "{1}"),
+        Variant::new("in proportion to the torque")
+            .number("friction over torque", "-", (0.0, 0.2), (0.0, 3.0))
+            .number("share at rest", "-", (0.0, 0.5), (0.0, 1.0))
+            .set("motor_loads.friction_of_torque", "{0}")
+            .set("motor_loads.held", "{1}"),
+    ],
+    in_loads
+);
+
+effect!(
     /// Play at reversals.
     BacklashEffect, "backlash", Boundary,
     "the motors have play: a rod stays behind when its motor reverses",

@@ -7,10 +7,11 @@ mod joint;
 mod recording;
 mod unknown;
 
-/// Registers an effect: its type, id, part of the model, words, equation, experiment, source and variants.
+/// Registers an effect: its type, id, part of the model, words, equation, experiment, source and variants, and what else is true
+/// of it.
 macro_rules! effect {
     ($(#[$doc:meta])* $name:ident, $id:literal, $hook:ident, $words:literal, $equation:literal, $experiment:literal,
-     $source:literal, |$robot:ident| $variants:expr) => {
+     $source:literal, |$robot:ident| $variants:expr $(, $more:ident)?) => {
         $(#[$doc])*
         #[derive(Clone, Debug, serde::Deserialize, schemars::JsonSchema)]
         #[serde(deny_unknown_fields)]
@@ -41,6 +42,9 @@ macro_rules! effect {
             fn experiment(&self) -> &'static str {
                 $experiment
             }
+            $(fn $more(&self) -> bool {
+                true
+            })?
         }
     };
 }

@@ -59,3 +59,34 @@ effect!(
         robot.markers.iter().enumerate().map(|(i, name)| form(i, name)).collect()
     }
 );
+
+effect!(
+    /// Motors report their loads wrongly.
+    LoadCalibration, "load_calibration", Recording,
+    "a motor's load reading has another gain than the others', or doesn't count from zero",
+    "load = g tau + o",
+    "hang a weight from a lever on the horn",
+    "gauge",
+    |_robot| {
+        let of_four = |i: usize, other: &str| {
+            let mut all = [other; 4];
+            all[i] = "{0}";
+            format!("({})", all.join(", "))
+        };
+        let gain = |i: usize| {
+            Variant::new(format!("gain of motor_{}", i + 1))
+                .number("gain over the others'", "-", (1.0, 1.2), (0.1, 10.0))
+                .set("motor_loads.gains", of_four(i, "1"))
+        };
+        let zero = |i: usize| {
+            Variant::new(format!("zero of motor_{}", i + 1))
+                .number("reading without a torque", "-", (0.0, 20.0), (-2000.0, 2000.0))
+                .set("motor_loads.offsets", of_four(i, "0"))
+        };
+        let zeros = Variant::new("all zeros")
+            .number("reading without a torque", "-", (0.0, 20.0), (-2000.0, 2000.0))
+            .set("motor_loads.offsets", "({0}, {0}, {0}, {0})");
+        (0..4).map(gain).chain((0..4).map(zero)).chain([zeros]).collect()
+    },
+    in_loads
+);

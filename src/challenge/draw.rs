@@ -179,7 +179,8 @@ impl Draw<'_> {
         let chosen: Vec<_> = chosen.collect::<Result<_, _>>()?;
         if chosen.is_empty() {
             let mut all = <dyn Effect>::all();
-            all.retain(|effect| effect.is_cause());
+            // how strong an effect is drawn goes by poses
+            all.retain(|effect| effect.is_cause() && !effect.in_loads());
             return Ok(all);
         }
         Ok(chosen)

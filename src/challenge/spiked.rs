@@ -2,9 +2,8 @@
 
 use super::ChallengeError;
 use super::spec::Onto;
-use crate::compare::{CompareError, film, motor_inputs};
+use crate::compare::{CompareError, film};
 use crate::config::Source;
-use crate::engine::Inputs;
 use crate::recordings::{Body, Mocap, MotorAngles, Pose, Recording, Track, to_base, to_world};
 use crate::reproduce::Data;
 
@@ -12,12 +11,8 @@ use crate::reproduce::Data;
 pub(super) struct Background {
     /// As it is recorded, under the name that cases give it.
     recording: Recording,
-    /// First row with motor readings.
-    first_row: usize,
-    /// Times of the rows from there \[s\].
-    times: Vec<f64>,
-    /// Motor angles then.
-    inputs: Inputs,
+    /// Its motors' angles.
+    motors: MotorAngles,
 }
 
 impl Background {
@@ -38,12 +33,8 @@ impl Background {
                 let mut recording = Recording::read(folder)?;
                 recording.require_mocap()?;
                 recording.name = format!("{role}_{i}_{}", recording.name);
-                let motors = MotorAngles::new(&recording);
-                let inputs = motor_inputs(&motors.time, &motors.present);
                 Ok(Self {
-                    inputs: inputs.map_err(ChallengeError::Unfit)?,
-                    first_row: motors.first_row,
-                    times: motors.time,
+                    motors: MotorAngles::new(&recording),
                     recording,
                 })
             })
@@ -55,7 +46,7 @@ impl Background {
     /// # Errors
     /// If it has no steady state at a row.
     pub(super) fn film(&self, source: &Source) -> Result<Vec<[Pose; 2]>, CompareError> {
-        film(source, self.inputs.clone(), &self.times)
+        Ok(film(source, &self.motors.time, &self.motors.present)?.poses)
     }
 
     /// The recording with every pose moved and turned as from the poses `plain` to `changed`.
@@ -63,7 +54,7 @@ impl Background {
         let moved = |body: Body, b: usize| {
             let track = self.track(body);
             Track::new((0..track.position.len()).map(|row| {
-                let k = row.saturating_sub(self.first_row);
+                let k = row.saturating_sub(self.motors.first_row);
                 let (from, to) = (&plain[k][b], &changed[k][b]);
                 let seen = to_base(&track.pose(row));
                 let shift = to.translation.vector - from.translation.vector;

@@ -2,13 +2,16 @@
 
 use super::spec::Tours;
 use super::{ChallengeError, RECORDINGS, set_points};
-use crate::compare::film;
+use crate::compare::{Film, film};
 use crate::config::Source;
 use crate::recordings::{Pose, RADIANS_PER_TICK, Recording, RobotGeometry};
 use nalgebra::{UnitQuaternion, Vector3};
-use rand::RngExt;
+use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use statrs::distribution::{ContinuousCDF, Normal};
+
+/// Deviation of what motors report as their loads.
+const LOAD_NOISE: f64 = 2.0;
 
 /// Standard normal draws.
 pub(super) fn normal(random: &mut Pcg64Mcg) -> f64 {
@@ -49,10 +52,8 @@ impl Tours {
         let goal: Vec<[f64; 4]> = goals.iter().map(|k| ticks(&points[*k])).collect();
         let angles: Vec<[f64; 4]> =
             (present.iter().map(|row| row.map(|t| t * RADIANS_PER_TICK))).collect();
-        let inputs =
-            crate::compare::motor_inputs(&times, &angles).map_err(ChallengeError::Unfit)?;
-        let poses =
-            film(source, inputs, &times).map_err(|e| ChallengeError::Unfit(e.to_string()))?;
+        let Film { poses, loads } =
+            film(source, &times, &angles).map_err(|e| ChallengeError::Unfit(e.to_string()))?;
 
         let vector =
             |size: f64, random: &mut Pcg64Mcg| Vector3::from_fn(|_, _| size * normal(random));
@@ -71,6 +72,15 @@ impl Tours {
         let time = (times.iter())
             .map(|t| 1.0 + t + (late * normal(random)).clamp(-most, most))
             .collect();
-        Ok(Recording::simulated(name, time, goal, present, &poses))
+        // draws of their own, so that others don't depend on whether loads are reported
+        let mut apart = Pcg64Mcg::seed_from_u64(random.clone().random());
+        let silent = loads.iter().flatten().all(|load| *load == 0.0);
+        let noise = if silent { 0.0 } else { LOAD_NOISE };
+        let mut report = |load: f64| (load + noise * normal(&mut apart)).round();
+        let loads = loads.into_iter().map(|row| row.map(&mut report)).collect();
+        Ok(Recording {
+            loads,
+            ..Recording::simulated(name, time, goal, present, &poses)
+        })
     }
 }

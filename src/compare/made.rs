@@ -1,6 +1,6 @@
 //! A recording made by Auxetica itself, for when no real one is at hand.
 
-use super::{CompareError, film, observed::motor_inputs};
+use super::{CompareError, film};
 use crate::config::Source;
 use crate::recordings::{RADIANS_PER_TICK, Recording};
 use std::path::Path;
@@ -33,10 +33,12 @@ pub fn make_recording(source: &Source, folder: &Path) -> Result<(), CompareError
         .iter()
         .map(|ticks| ticks.map(|t| t * RADIANS_PER_TICK))
         .collect();
-    let inputs = motor_inputs(&time, &angles).map_err(CompareError::Unfit)?;
     let goal = (0..rows).map(|row| present[row - row % per_setpoint + per_setpoint - 1]);
     let goal = goal.collect();
-    let poses = film(source, inputs, &time)?;
-    let recording = Recording::simulated("made by Auxetica", time, goal, present, &poses);
+    let film = film(source, &time, &angles)?;
+    let recording = Recording {
+        loads: film.loads,
+        ..Recording::simulated("made by Auxetica", time, goal, present, &film.poses)
+    };
     Ok(recording.write(folder)?)
 }

@@ -9,14 +9,16 @@ mod made;
 mod mismatch;
 mod observed;
 mod simulated;
+mod turns;
 
-pub use film::film;
+pub use film::{Film, film};
 pub use made::make_recording;
 pub use mismatch::{BodyMismatch, Comparison, Worst};
 pub(crate) use observed::TABLE;
 pub use observed::{Observed, SampleKind, motor_inputs, published};
 pub use simulated::{Mode, Simulated};
 pub(crate) use simulated::{markers, pose, seen};
+pub use turns::turns;
 
 use crate::config::{Problems, Source};
 use crate::engine::RunError;

@@ -73,6 +73,7 @@ pub(super) fn conclude(
         },
         alarms: [alarms(own, &last.fit.at), worsened].concat(),
         audit: audit(train, holdout),
+        loads: None,
         traces: last.scores.traces(&baseline.scores, [train, holdout]),
         seconds: 0.0,
     }
@@ -182,18 +183,7 @@ fn name_all(
         let (effect, variant) = (&effects[forms[*form].effect], &forms[*form].variant);
         let parameters = estimates.split_off(..variant.quantities.len());
         let parameters = parameters.expect("each number has an estimate").to_vec();
-        let mut named = Named {
-            id: effect.id().to_owned(),
-            words: match variant.name.as_str() {
-                "" => effect.words().to_owned(),
-                which => format!("{} ({which})", effect.words()),
-            },
-            equation: effect.equation().to_owned(),
-            hook: effect.hook(),
-            parameters,
-            probability: *probability,
-            gain_mm: gain,
-        };
+        let mut named = Named::new(&**effect, variant, parameters, (*probability, gain));
         if !effect.is_cause() {
             if let Some(before) = all.pop_if(|before| before.id == named.id) {
                 named.equation = before.equation + " +";

@@ -188,6 +188,19 @@ impl<'a> Run<'a> {
         Ok(apart)
     }
 
+    /// Torques with which the motors turn the rods \[N m\] at every sample.
+    ///
+    /// # Errors
+    /// If a sample has no steady state.
+    fn torques(&mut self, samples: &Samples) -> Result<Vec<[f64; 4]>, CompareError> {
+        let mut torques = Vec::new();
+        for i in 0..samples.list.len() {
+            self.go(samples, i, |_, _| Ok(()))?;
+            torques.push(self.shown.model.motor_torques());
+        }
+        Ok(torques)
+    }
+
     /// Whitened residuals, derivatives by numbers of which `pairs` has the steps and the models with larger and smaller
     /// ones, and the states.
     ///
@@ -275,6 +288,14 @@ fn difference(model: &Model, points: &Points, samples: &Samples, i: usize) -> [f
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
     Run::new(source, samples, None)?.all(samples)
+}
+
+/// Torques with which the motors turn the rods \[N m\] at every sample, however long it takes.
+///
+/// # Errors
+/// If the scenario can't be built, or a sample has no steady state.
+pub fn torques(source: &Source, samples: &Samples) -> Result<Vec<[f64; 4]>, CompareError> {
+    Run::new(source, samples, None)?.torques(samples)
 }
 
 /// Residuals of a recording in standard deviations.

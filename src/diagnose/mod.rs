@@ -9,7 +9,9 @@ mod conclusion;
 pub mod curves;
 pub mod experiments;
 pub mod forward;
+mod loads;
 mod locate;
+mod motors;
 mod oracle;
 pub mod page;
 mod pictures;
@@ -94,6 +96,8 @@ pub fn diagnose(
     let (mut train, mut holdout) = read(request)?;
     let effects = chosen(request.effects)?;
     let forms = search::forms(&effects, &Robot::of(request.source)?);
+    let (in_loads, forms): (Vec<_>, Vec<_>) =
+        (forms.into_iter()).partition(|form| effects[form.effect].in_loads());
     let mut weighed = false;
     let baseline = loop {
         let empty = Trial::new(request.source, &own, &train);
@@ -129,8 +133,13 @@ pub fn diagnose(
         let share = |done: f64| told(0.7 + 0.25 * done);
         last = described(&baseline, last, &among, &holdout, &share)?;
     }
-    let augmented = last.scenario()?;
+    let mut augmented = last.scenario()?;
     let mut diagnosis = conclusion::conclude(&baseline, &last, &forms, &effects, &holdout);
+    let heard = loads::heard(&augmented, [&train, &holdout], &in_loads, &effects)?;
+    if let Some(heard) = heard {
+        diagnosis = diagnosis.hearing(heard.loads, heard.named);
+        augmented = heard.scenario;
+    }
     diagnosis.seconds = start.elapsed().as_secs_f64();
     told(1.0);
     Ok((diagnosis, augmented))

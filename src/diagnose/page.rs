@@ -1,7 +1,9 @@
 //! A diagnosis as one page for the browser, without anything from elsewhere.
 
 use super::pictures;
-use super::verdict::{Diagnosis, Estimated, Experiment, Kind, Prediction, Scored};
+use super::verdict::{
+    Diagnosis, Estimated, Experiment, Kind, LoadScore, Loads, Prediction, Scored,
+};
 use std::fmt::Write;
 
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:62rem;margin:2rem auto;padding:0 1rem;color:#222}\
@@ -31,6 +33,7 @@ pub fn page(d: &Diagnosis, scenario: &str, commands: &[String]) -> String {
     html += &location(d);
     html += &results(d);
     html += &numbers(d);
+    html += &d.loads.as_ref().map_or_else(String::new, loads);
     html += &section("The recordings", &list(d.audit.iter().map(String::as_str)));
     let commands = commands.iter().map(|c| escaped(c)).collect::<Vec<_>>();
     html += &section(
@@ -253,6 +256,26 @@ fn numbers(d: &Diagnosis) -> String {
     let heads = ["number", "before", "95 %", "after", "95 %", "unit"];
     let notes = list(d.alarms.iter().map(String::as_str));
     section("Calibrated numbers", &(table(&heads, &rows) + &notes))
+}
+
+fn loads(loads: &Loads) -> String {
+    let row = |r: &LoadScore| {
+        let [before, after] = r.rms.map(|rms| format!("<td>{rms:.2}</td>"));
+        let (name, role) = (escaped(&r.name), escaped(&r.role));
+        format!("<tr><td>{name}</td><td class=\"left\">{role}</td>{before}{after}</tr>")
+    };
+    let rows: String = loads.recordings.iter().map(row).collect();
+    let heads = ["recording", "role", "before", "after"];
+    let [gain, interval] = loads.gain.figures();
+    section(
+        "The motors' loads",
+        &format!(
+            "<p>{}</p>{}<p>Root mean squares of predicted less reported loads, in the motors' unit, of which {gain} \
+             ({interval}) are 1 N m in this model. Before: the model that explains the poses as far as it does.</p>",
+            escaped(&loads.words),
+            table(&heads, &rows)
+        ),
+    )
 }
 
 fn section(title: &str, body: &str) -> String {

@@ -1,18 +1,14 @@
 //! What a recording is reduced to: the settled end and the beginning of every dwell, and rows on the way.
 
 use super::forward::CHANNELS;
+use super::motors::Motors;
 use crate::compare::{CompareError, motor_inputs, published};
 use crate::engine::Inputs;
-use crate::recordings::{
-    BasePoses, MotorAngles, Pose, Recording, Reference, RobotGeometry, SteadySamples,
-};
+use crate::engine::scenario::Turn;
+use crate::recordings::{BasePoses, Pose, Recording, Reference, RobotGeometry, SteadySamples};
 use nalgebra::Vector3;
 use std::path::Path;
 
-/// Fewest rows that say anything.
-const FEWEST: usize = 20;
-/// Ticks per second below which a motor rests.
-const STILL: f64 = 30.0;
 /// Rows that are averaged at most.
 const BLOCK: usize = 5;
 /// Every so many rows on the way, one is taken.
@@ -59,13 +55,26 @@ pub enum Phase {
     Settled,
 }
 
-/// Mean poses over a few rows.
+/// What a motor reports.
+#[derive(Clone, Copy, Debug)]
+pub struct Reading {
+    /// Its load, in the motor's unit.
+    pub load: f64,
+    /// Standard deviation of that.
+    pub deviation: f64,
+    /// How it turns.
+    pub turn: Turn,
+}
+
+/// Means over a few rows.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// Time of the last of these rows [s].
     pub time: f64,
     /// Motor angles [rad].
     pub angles: [f64; 4],
+    /// What the motors report.
+    pub motors: [Reading; 4],
     /// Poses of platform and ring in the base frame.
     pub poses: [Pose; 2],
     /// When it was taken.
@@ -177,13 +186,13 @@ impl Samples {
             )));
         }
         let reference = Reference::new(recording, &poses)?;
-        let turning = Turning::of(recording)?;
-        let Turning { motors, still } = &turning;
-        let (first, rows) = (motors.first_row, still.len());
+        let motors = Motors::of(recording)?;
+        let still = &motors.still;
+        let (first, rows) = (motors.angles.first_row, still.len());
         let tracks = [&poses.platform[first..], &poses.ring[first..]];
         let noise = noise(still, tracks);
         let mut list = Vec::new();
-        let mut series = motors.present.clone();
+        let mut series = motors.angles.present.clone();
         let mut row = 0;
         while row < rows {
             let end = (row..rows)
@@ -197,23 +206,23 @@ impl Samples {
                     let block = BLOCK.min(length);
                     if length >= 3 * BLOCK {
                         list.push(mean(
-                            motors,
+                            &motors,
                             tracks,
                             from..from + block,
                             Phase::Stopped,
                             noise,
                         ));
                     }
-                    let settled = mean(motors, tracks, end - block..end, Phase::Settled, noise);
+                    let settled = mean(&motors, tracks, end - block..end, Phase::Settled, noise);
                     series[end - block..end].fill(settled.angles);
                     list.push(settled);
                 }
             } else {
                 for r in (row..end).step_by(STRIDE).skip(1) {
                     if r + 1 < rows && r > 0 {
-                        let mut sample = mean(motors, tracks, r..r + 1, Phase::Moving, noise);
+                        let mut sample = mean(&motors, tracks, r..r + 1, Phase::Moving, noise);
                         for (b, track) in tracks.iter().enumerate() {
-                            let dt = motors.time[r + 1] - motors.time[r - 1];
+                            let dt = motors.angles.time[r + 1] - motors.angles.time[r - 1];
                             let (before, after) = (&track[r - 1], &track[r + 1]);
                             let apart = after.translation.vector - before.translation.vector;
                             let turn = after.rotation.angle_to(&before.rotation);
@@ -230,15 +239,15 @@ impl Samples {
             }
             row = end;
         }
-        Self::reduced(recording, &turning, series, list, (reference, noise))
+        Self::reduced(recording, &motors, series, list, (reference, noise))
     }
 
     /// Steady samples of a recording without motion capture. Those during which a motor turns are left out.
     fn published(recording: &Recording, steady: &SteadySamples) -> Result<Self, CompareError> {
-        let turning = Turning::of(recording)?;
-        let Turning { motors, still } = &turning;
+        let motors = Motors::of(recording)?;
+        let still = &motors.still;
         let around = |row: usize| {
-            let row = row - motors.first_row;
+            let row = row - motors.angles.first_row;
             row.saturating_sub(1)..(row + 2).min(still.len())
         };
         let settled =
@@ -246,19 +255,24 @@ impl Samples {
         let sample = |i: usize| Sample {
             time: steady.time[i],
             angles: steady.angles[i],
+            motors: motors.readings(around(steady.row[i])),
             poses: [steady.platform[i], steady.ring[i]],
             phase: Phase::Settled,
             position_deviation: [PUBLISHED.0; 2],
             rotation_deviation: [PUBLISHED.1; 2],
         };
         let list = settled.map(sample).collect();
-        let (series, reference) = (motors.present.clone(), steady.reference.clone());
-        Self::reduced(recording, &turning, series, list, (reference, PUBLISHED))
+        let (series, reference) = (motors.angles.present.clone(), steady.reference.clone());
+        Self::reduced(recording, &motors, series, list, (reference, PUBLISHED))
     }
 
     fn reduced(
         recording: &Recording,
-        Turning { motors, still }: &Turning,
+        Motors {
+            angles: motors,
+            still,
+            ..
+        }: &Motors,
         series: Vec<[f64; 4]>,
         mut list: Vec<Sample>,
         (reference, noise): (Reference, (f64, f64)),
@@ -323,37 +337,8 @@ fn thin(list: &mut Vec<Sample>, most: usize) {
     });
 }
 
-/// How the motors turn.
-struct Turning {
-    motors: MotorAngles,
-    /// Whether they rest, row by row.
-    still: Vec<bool>,
-}
-
-impl Turning {
-    fn of(recording: &Recording) -> Result<Self, CompareError> {
-        let motors = MotorAngles::new(recording);
-        let rows = motors.time.len();
-        if rows < FEWEST {
-            return Err(CompareError::Unfit(format!(
-                "recording `{}` has {rows} rows with motor readings; a diagnosis needs at least {FEWEST}",
-                recording.name
-            )));
-        }
-        let rate = |row: usize| {
-            let other = if row == 0 { 1 } else { row - 1 };
-            let dt = (motors.time[row] - motors.time[other]).abs().max(1e-6);
-            let turned = |i: usize| (motors.present[row][i] - motors.present[other][i]).abs();
-            (0..4).map(turned).fold(0.0, f64::max) / dt
-        };
-        let limit = STILL * crate::recordings::RADIANS_PER_TICK;
-        let still = (0..rows).map(|row| rate(row) < limit).collect();
-        Ok(Self { motors, still })
-    }
-}
-
 fn mean(
-    motors: &MotorAngles,
+    motors: &Motors,
     tracks: [&[Pose]; 2],
     rows: std::ops::Range<usize>,
     phase: Phase,
@@ -361,7 +346,7 @@ fn mean(
 ) -> Sample {
     let count = rows.len() as f64;
     let angles = std::array::from_fn(|i| {
-        motors.present[rows.clone()]
+        motors.angles.present[rows.clone()]
             .iter()
             .map(|a| a[i])
             .sum::<f64>()
@@ -385,8 +370,9 @@ fn mean(
         )
     });
     Sample {
-        time: motors.time[rows.end - 1],
+        time: motors.angles.time[rows.end - 1],
         angles,
+        motors: motors.readings(rows.clone()),
         poses,
         phase,
         position_deviation: [noise.0 / count.sqrt(); 2],
@@ -411,11 +397,13 @@ fn noise(still: &[bool], tracks: [&[Pose]; 2]) -> (f64, f64) {
             }
         }
     }
-    // the median of a normal variable's size is 0.6745 deviations
-    let deviation = |mut sizes: Vec<f64>, least: f64| {
-        sizes.sort_by(f64::total_cmp);
-        let middle = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
-        (middle / 0.6745 / 2.0_f64.sqrt()).max(least)
-    };
     (deviation(shifts, 5e-6), deviation(turns, 5e-5))
+}
+
+/// Standard deviation of a normal variable of which differences have these sizes, at `least`.
+pub(super) fn deviation(mut sizes: Vec<f64>, least: f64) -> f64 {
+    sizes.sort_by(f64::total_cmp);
+    let middle = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
+    // the median of a normal variable's size is 0.6745 deviations
+    (middle / 0.6745 / 2.0_f64.sqrt()).max(least)
 }

@@ -1,6 +1,6 @@
 //! What a diagnosis says. Its JSON keys are stable.
 
-use crate::identify::Hooked;
+use crate::identify::{Effect, Hooked, Variant};
 use serde::{Deserialize, Serialize};
 
 /// The kinds of verdict.
@@ -60,6 +60,8 @@ pub struct Diagnosis {
     pub alarms: Vec<String>,
     /// What is odd about the recordings.
     pub audit: Vec<String>,
+    /// What the motors' loads say, if they report any.
+    pub loads: Option<Loads>,
     /// The platform's error over time, recording by recording.
     pub traces: Vec<Trace>,
     /// Time it took [s].
@@ -83,6 +85,78 @@ pub struct Named {
     pub probability: f64,
     /// Root mean square that the platform's position error falls by when it is added, on the training data [mm].
     pub gain_mm: f64,
+}
+
+impl Named {
+    /// An effect in one of its forms, with its numbers, its probability and its gain \[mm\].
+    #[must_use]
+    pub fn new(
+        effect: &dyn Effect,
+        variant: &Variant,
+        parameters: Vec<Estimated>,
+        (probability, gain_mm): (f64, f64),
+    ) -> Self {
+        Self {
+            id: effect.id().to_owned(),
+            words: match variant.name.as_str() {
+                "" => effect.words().to_owned(),
+                which => format!("{} ({which})", effect.words()),
+            },
+            equation: effect.equation().to_owned(),
+            hook: effect.hook(),
+            parameters,
+            probability,
+            gain_mm,
+        }
+    }
+}
+
+/// What the motors' loads say.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Loads {
+    /// In words.
+    pub words: String,
+    /// Reading for a torque of 1 N m.
+    pub gain: Estimated,
+    /// How far predicted loads are from reported ones.
+    pub recordings: Vec<LoadScore>,
+    /// Sum of the squares of residuals in deviations over their number, on the training data, without and with the effects
+    /// that loads name.
+    pub reduced_chi2: [f64; 2],
+}
+
+/// How far the predicted loads of a recording are from the reported ones.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct LoadScore {
+    /// The recording.
+    pub name: String,
+    /// `train` or `holdout`.
+    pub role: String,
+    /// Root mean squares without and with the effects that loads name, in the motors' unit.
+    pub rms: [f64; 2],
+}
+
+impl Diagnosis {
+    /// The same with what the motors' loads say, and the effects that they name.
+    pub(super) fn hearing(mut self, loads: Loads, named: Vec<Named>) -> Self {
+        if !named.is_empty() {
+            let poses = self.verdict;
+            self.verdict = match (poses, &named[..]) {
+                (Kind::None, [one]) if one.hook == Hooked::Recording => Kind::Recording,
+                (Kind::None, [_]) => Kind::Effect,
+                (Kind::Unexplained, _) => Kind::Unexplained,
+                _ => Kind::Several,
+            };
+            let of_poses = match poses {
+                Kind::None => "Poses show nothing that is missing.",
+                _ => &self.words,
+            };
+            self.words = format!("{of_poses} {}", loads.words);
+        }
+        self.effects.extend(named);
+        self.loads = Some(loads);
+        self
+    }
 }
 
 /// What a calibration hides.

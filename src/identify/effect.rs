@@ -233,6 +233,10 @@ pub trait Effect: Send + Sync {
     fn variants(&self, robot: &Robot) -> Vec<Variant>;
     /// The experiment that tells it from what looks like it.
     fn experiment(&self) -> &'static str;
+    /// Whether it shows in what the motors report as their loads, and not in poses.
+    fn in_loads(&self) -> bool {
+        false
+    }
     /// Whether it is a cause. What is none only describes: its forms are terms of a law, of which several may be taken, and
     /// they are tried where no cause explains the mismatch.
     fn is_cause(&self) -> bool {

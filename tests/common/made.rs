@@ -1,6 +1,6 @@
 //! Recordings that the program makes itself.
 
-use auxetica::compare::{CompareError, film, motor_inputs};
+use auxetica::compare::{CompareError, film};
 use auxetica::config::Source;
 use auxetica::identify::Robot;
 use auxetica::recordings::{RADIANS_PER_TICK, Recording};
@@ -42,7 +42,9 @@ pub fn recorded(source: &Source, robot: &Robot) -> Result<Recording, CompareErro
     let angles: Vec<[f64; 4]> = (present.iter())
         .map(|row| row.map(|t: f64| t * RADIANS_PER_TICK))
         .collect();
-    let inputs = motor_inputs(&time, &angles).expect("rising times");
-    let poses = film(source, inputs, &time)?;
-    Ok(Recording::simulated("made", time, goal, present, &poses))
+    let film = film(source, &time, &angles)?;
+    Ok(Recording {
+        loads: film.loads,
+        ..Recording::simulated("made", time, goal, present, &film.poses)
+    })
 }

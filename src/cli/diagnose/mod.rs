@@ -6,7 +6,7 @@ use super::progress::shared;
 use super::table::table;
 use super::{Failure, print, write_whole};
 use crate::config::Source;
-use crate::diagnose::verdict::{Diagnosis, Estimated, Fitted, Noticeable};
+use crate::diagnose::verdict::{Diagnosis, Estimated, Fitted, LoadScore, Loads, Noticeable};
 use crate::diagnose::{DiagnoseError, Request, diagnose};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -196,6 +196,7 @@ fn show(d: &Diagnosis) -> String {
     for alarm in &d.alarms {
         text += &format!("note: {alarm}\n");
     }
+    text += &d.loads.as_ref().map_or_else(String::new, loads);
     text += &format!("\n{}\n", results(&d.baseline, &d.augmented));
     text += &format!(
         "floor {:.3} mm, {:.2} mrad; mean squared residual {:.2} before, {:.2} after; {:.1} s",
@@ -206,6 +207,16 @@ fn show(d: &Diagnosis) -> String {
         d.seconds
     );
     text
+}
+
+fn loads(loads: &Loads) -> String {
+    let heads = ["recording", "role", "loads before", "after"];
+    let row = |r: &LoadScore| {
+        let [before, after] = r.rms.map(|rms| format!("{rms:.2}"));
+        vec![r.name.clone(), r.role.clone(), before, after]
+    };
+    let rows = table(&heads, loads.recordings.iter().map(row));
+    format!("\n{}\n{rows}\n", loads.words)
 }
 
 fn numbers(parameters: &[Estimated]) -> String {

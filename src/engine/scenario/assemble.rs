@@ -42,6 +42,7 @@ impl Model {
             dwells,
             markers: scenario.markers,
             capture: scenario.capture,
+            motor_loads: scenario.motor_loads,
             watchers,
             stability_limit: None,
         })

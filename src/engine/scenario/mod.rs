@@ -3,12 +3,14 @@
 mod assemble;
 mod bodies;
 mod model;
+mod motor_loads;
 mod targets;
 mod time_step;
 mod uncertain;
 
 pub use bodies::{Caps, CylinderSpec, Material, RodGroup};
 pub use model::{Model, Watcher};
+pub use motor_loads::{MotorLoads, Turn};
 pub use targets::Targets;
 pub use time_step::{LARGEST_SHARE, StepSize, TimeStep};
 pub use uncertain::Uncertain;
@@ -55,6 +57,9 @@ pub struct Scenario<'a> {
     /// How motion capture sees the robot.
     #[serde(default)]
     pub capture: Capture,
+    /// What motors report as their loads; unknown if absent.
+    #[serde(default)]
+    pub motor_loads: Option<MotorLoads>,
     /// Named points that recordings are compared at.
     #[serde(default)]
     pub markers: Vec<Marker>,

@@ -1,6 +1,6 @@
 //! A scenario ready to be solved.
 
-use super::{Capture, Marker, Solver};
+use super::{Capture, Marker, MotorLoads, Solver};
 use crate::group::BodyId;
 use crate::hooks::{Callback, Dwell};
 use crate::rotation;
@@ -34,6 +34,8 @@ pub struct Model {
     pub markers: Vec<Marker>,
     /// How motion capture sees them.
     pub capture: Capture,
+    /// What motors report as their loads.
+    pub motor_loads: Option<MotorLoads>,
     /// Callbacks.
     pub watchers: Vec<Watcher>,
     /// Stability limit \[s\] at the start, once it has been asked for.
@@ -46,6 +48,14 @@ impl Model {
         let body = self.system.body(self.system.find(&marker.on)?);
         let (point, frame) = pose_along(&body, *marker.along);
         Some((point + frame.tr_mul(&Vector3::from(*marker.offset)), frame))
+    }
+
+    /// Torques that turn the starts of the first four rods about their axes \[N m\]: what their first two elements pass on,
+    /// before division by the dilatation. Zero for rods that aren't there.
+    pub fn motor_torques(&self) -> [f64; 4] {
+        let bodies = self.system.ids().iter().map(|id| self.system.body(*id));
+        let mut rods = bodies.filter(|body| body.elements() > 1);
+        std::array::from_fn(|_| rods.next().map_or(0.0, |rod| -rod.couple(1).z))
     }
 }
 

@@ -1,0 +1,111 @@
+//! What motors report as their loads tells of friction and of wrong readings, and of nothing where nothing is wrong.
+
+use auxetica::challenge::{NOMINAL, RECORDINGS, Spec, TRUTH, conceal};
+use auxetica::config::Source;
+use auxetica::diagnose::verdict::{Diagnosis, Kind};
+use auxetica::diagnose::{Request, diagnose};
+use auxetica::engine::scenario::{MotorLoads, Scenario, Turn};
+use auxetica::identify::Hooked;
+use std::path::Path;
+
+/// Diagnoses recordings that conceal an effect, or nothing, and gives the values that were concealed and the scenario with
+/// what was found.
+fn diagnosed(concealed: Option<&str>, seed: u64) -> (Diagnosis, Vec<f64>, Source) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_concealed.ron");
+    let singles = usize::from(concealed.is_some());
+    let listed: Vec<_> = concealed.iter().collect();
+    let spec = format!(
+        r#"(
+            scenario: {shipped:?}, seed: {seed},
+            controls: {controls}, singles: {singles}, doubles: 0, foreigners: 0, effects: {listed:?},
+            mesh: ("rods[0].elements", 12, 12), strength: (1, 1),
+            recordings: Simulated(
+                set_points: 10, angle: 6, speed: 1.05, hold: 1.5, rate: 9.26,
+                noise: (5e-5, 5e-4), bias: (1e-5, 1e-4), jitter: 2e-3,
+            ),
+        )"#,
+        controls = 1 - singles
+    );
+    let file = folder.path().join("spec.ron");
+    std::fs::write(&file, spec).expect("written");
+    let (spec, nominal) = Spec::load(&file).unwrap_or_else(|e| panic!("{e}"));
+    let made = folder.path().join("made");
+    conceal(&spec, &nominal, &made, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let all = RECORDINGS.map(|name| made.join("case_000").join(name));
+    let source = Source::load(&made.join(NOMINAL), &[]).unwrap_or_else(|e| panic!("{e}"));
+    let effects = ["motor_friction", "load_calibration"].map(str::to_owned);
+    let request = Request {
+        source: &source,
+        train: &all[..2],
+        holdout: &all[2..],
+        effects: &effects,
+        seed: 1,
+    };
+    let (diagnosis, augmented) = diagnose(&request, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
+    let truth = std::fs::read_to_string(made.join(TRUTH)).expect("it is there");
+    let truth: serde_json::Value = serde_json::from_str(&truth).expect("it is JSON");
+    let values = truth[0]["effects"][0]["values"].as_array();
+    let value = |pair: &serde_json::Value| pair[1].as_f64().expect("a number");
+    let values = values.map_or(vec![], |values| values.iter().map(value).collect());
+    (diagnosis, values, augmented)
+}
+
+#[test]
+fn loads_of_a_robot_without_faults_are_as_its_torques_say() {
+    let (d, ..) = diagnosed(None, 3);
+    assert_eq!(d.verdict, Kind::None, "{}", d.words);
+    let loads = d.loads.expect("they are reported");
+    assert!(loads.reduced_chi2[0] < 1.5, "{:?}", loads.reduced_chi2);
+    assert_eq!(
+        loads.words,
+        "The motors' loads are as the model's torques say."
+    );
+}
+
+#[test]
+fn friction_and_wrong_readings_are_named_with_their_values_though_poses_show_nothing() {
+    let cases = [
+        ("motor_friction", 3, Kind::Effect, Hooked::Boundary),
+        ("motor_friction", 4, Kind::Effect, Hooked::Boundary),
+        ("load_calibration", 3, Kind::Recording, Hooked::Recording),
+        ("load_calibration", 4, Kind::Recording, Hooked::Recording),
+    ];
+    for (id, seed, kind, hook) in cases {
+        let (d, truth, augmented) = diagnosed(Some(id), seed);
+        assert_eq!(d.verdict, kind, "{id}: {}", d.words);
+        let [named] = &d.effects[..] else {
+            panic!("{id}: {:?}", d.effects);
+        };
+        assert_eq!((named.id.as_str(), named.hook), (id, hook));
+        for (p, truth) in named.parameters.iter().zip(&truth) {
+            let off = (p.value - truth).abs();
+            assert!(
+                off < 0.1 * truth,
+                "{id}, {}: {} for {truth}",
+                p.name,
+                p.value
+            );
+        }
+        let loads = d.loads.expect("they are reported");
+        for r in loads.recordings.iter().filter(|r| r.role == "holdout") {
+            assert!(r.rms[1] < 0.6 * r.rms[0], "{id}: {:?}", r.rms);
+        }
+        // the scenario that is written reports loads so
+        let scenario: Scenario<'_> = augmented.parse().unwrap_or_else(|e| panic!("{e}"));
+        let motors = scenario.motor_loads.expect("it says what they report");
+        assert_eq!(*motors.gain, loads.gain.value);
+    }
+}
+
+#[test]
+fn a_reading_is_gain_times_torque_and_friction_plus_its_zero() {
+    let text = "(gain: 100, gains: (1, 2, 1, 1), offsets: (0, 5, 0, 0), friction: 0.1, friction_of_torque: 0.5, held: 0.2)";
+    let motors: MotorLoads = ron::from_str(text).expect("it is right");
+    let turning = |sense: f64, now: bool| motors.reading(1, -0.4, Turn { sense, now });
+    // 0.1 + 0.5 * 0.4 = 0.3 N m of friction
+    assert!((turning(1.0, true) - (200.0 * (-0.4 + 0.3) + 5.0)).abs() < 1e-12);
+    assert!((turning(-1.0, true) - (200.0 * (-0.4 - 0.3) + 5.0)).abs() < 1e-12);
+    assert!((turning(-1.0, false) - (200.0 * (-0.4 - 0.06) + 5.0)).abs() < 1e-12);
+    assert!((turning(0.0, false) - (200.0 * -0.4 + 5.0)).abs() < 1e-12);
+}
