@@ -11,7 +11,7 @@ type Edit = (&'static str, &'static str, &'static [&'static str]);
 
 /// Faults in the file: each must be told with `broken.ron:LINE`.
 #[rustfmt::skip]
-const EDITS: [Edit; 40] = [
+const EDITS: [Edit; 41] = [
     ("length: 0.1", "length: -0.1", &["broken.ron:5:17", "`rods[0].length`", "found -0.1", "give a number above 0"]),
     ("length: 0.1", "length: 0", &["broken.ron:5:17", "`rods[0].length`", "found 0", "give a number above 0"]),
     ("length: 0.1", "length: \"long\"", &["broken.ron:5:17", "expected a number", "for example 0.5"]),
@@ -50,6 +50,7 @@ const EDITS: [Edit; 40] = [
     ("solver:", "markers: [(name: \"tip\", on: \"rod\", along: 1.5)], solver:", &["broken.ron:14:47", "`markers[0].along`", "past the rod's tip", "give 0 to 1"]),
     ("solver:", "markers: [(name: \"m\", on: \"rod\"), (name: \"m\", on: \"rod\")], solver:", &["broken.ron:14:46", "`markers[1].name`", "is taken", "give another"]),
     ("solver:", "laws: [(apply: Auxetic(handedness: Left, factor: 1, eps_min: 0.5, eps_max: 0.1))], solver:", &["broken.ron:14:20", "`laws[0].apply`", "eps_min 0.5 exceeds eps_max 0.1", "give a smaller"]),
+    ("solver:", "motor_loads: (gain: -3), solver:", &["broken.ron:14:25", "`motor_loads.gain`", "found -3", "give a number above 0"]),
     ("solver:", "inputs: Channels(channels: {\"a\": []}), solver:", &["broken.ron:14:38", "`inputs.channels[\"a\"]`", "at least one"]),
     ("solver:", "joints: [(between: (\"rod\", \"plate\"), apply: SpringDamper(stiffness: 1))], solver:", &["broken.ron:14:24", "`joints[0].between`", "no body named `plate`", "bodies: `rod`"]),
 ];

@@ -33,7 +33,7 @@ pub(super) struct Heard {
 }
 
 /// What is fitted to loads.
-struct Trial<'a> {
+struct Hearing<'a> {
     source: &'a Source,
     forms: &'a [Form],
     train: Vec<Reported<'a>>,
@@ -75,16 +75,16 @@ pub(super) fn heard(
     if scenario.motor_loads.is_none() || train.iter().chain(holdout).any(silent) {
         return Ok(None);
     }
-    let trial = Trial {
+    let hearing = Hearing {
         source,
         forms,
         train: Reported::all(source, train)?,
         holdout: Reported::all(source, holdout)?,
     };
-    trial.heard(effects).map(Some)
+    hearing.heard(effects).map(Some)
 }
 
-impl Trial<'_> {
+impl Hearing<'_> {
     fn heard(&self, effects: &[Box<dyn Effect>]) -> Result<Heard, DiagnoseError> {
         let before = self.fit(vec![], vec![self.gain()]).map_err(unfit)?;
         let mut now = before.clone();
