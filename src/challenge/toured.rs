@@ -78,9 +78,12 @@ impl Tours {
         let noise = if silent { 0.0 } else { LOAD_NOISE };
         let mut report = |load: f64| (load + noise * normal(&mut apart)).round();
         let loads = loads.into_iter().map(|row| row.map(&mut report)).collect();
-        Ok(Recording {
-            loads,
-            ..Recording::simulated(name, time, goal, present, &poses)
-        })
+        Ok(Recording::simulated(
+            name,
+            time,
+            goal,
+            (present, loads),
+            &poses,
+        ))
     }
 }

@@ -36,9 +36,7 @@ pub fn make_recording(source: &Source, folder: &Path) -> Result<(), CompareError
     let goal = (0..rows).map(|row| present[row - row % per_setpoint + per_setpoint - 1]);
     let goal = goal.collect();
     let film = film(source, &time, &angles)?;
-    let recording = Recording {
-        loads: film.loads,
-        ..Recording::simulated("made by Auxetica", time, goal, present, &film.poses)
-    };
+    let motors = (present, film.loads);
+    let recording = Recording::simulated("made by Auxetica", time, goal, motors, &film.poses);
     Ok(recording.write(folder)?)
 }

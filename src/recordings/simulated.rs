@@ -7,9 +7,9 @@ use std::f64::consts::TAU;
 const VELOCITY_UNIT: f64 = 0.229 * TAU / 60.0;
 
 impl Recording {
-    /// The recording of a robot that is simulated: times \[s\], goals and positions of its motors \[ticks\] and poses of
-    /// platform and ring in the base frame, one a row. Velocities are those from the row before, in the motors' whole
-    /// units; loads are zero, and the base stays where it is.
+    /// The recording of a robot that is simulated: times \[s\], goals and positions of its motors \[ticks\] with their loads,
+    /// and poses of platform and ring in the base frame, one a row. Velocities are those from the row before, in the motors'
+    /// whole units, and the base stays where it is.
     ///
     /// # Panics
     /// If there are not as many of one as of the other.
@@ -18,11 +18,12 @@ impl Recording {
         name: &str,
         time: Vec<f64>,
         goal: Vec<[f64; 4]>,
-        present: Vec<[f64; 4]>,
+        (present, loads): (Vec<[f64; 4]>, Vec<[f64; 4]>),
         poses: &[[Pose; 2]],
     ) -> Self {
         let rows = time.len();
-        assert_eq!([goal.len(), present.len(), poses.len()], [rows; 3], "rows");
+        let lengths = [goal.len(), present.len(), loads.len(), poses.len()];
+        assert_eq!(lengths, [rows; 4], "rows");
         let base = Pose::translation(0.0, 0.0, RobotGeometry::default().base_markers);
         let track = |b: usize| Track::new(poses.iter().map(|row| to_world(&row[b])));
         let velocity = |row: usize| -> [f64; 4] {
@@ -36,7 +37,7 @@ impl Recording {
         Self {
             name: name.to_owned(),
             velocities: (0..rows).map(velocity).collect(),
-            loads: vec![[0.0; 4]; rows],
+            loads,
             mocap: Some(Mocap {
                 base: Track::new(std::iter::repeat_n(to_world(&base), rows)),
                 platform: track(0),

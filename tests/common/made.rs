@@ -43,8 +43,12 @@ pub fn recorded(source: &Source, robot: &Robot) -> Result<Recording, CompareErro
         .map(|row| row.map(|t: f64| t * RADIANS_PER_TICK))
         .collect();
     let film = film(source, &time, &angles)?;
-    Ok(Recording {
-        loads: film.loads,
-        ..Recording::simulated("made", time, goal, present, &film.poses)
-    })
+    let motors = (present, film.loads);
+    Ok(Recording::simulated(
+        "made",
+        time,
+        goal,
+        motors,
+        &film.poses,
+    ))
 }
