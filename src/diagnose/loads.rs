@@ -20,6 +20,8 @@ const NUMERICS: f64 = 0.005;
 const GAIN: f64 = 0.25;
 /// Most effects that are named.
 const MOST: usize = 2;
+/// Least reading for a torque of 1 N m.
+const LEAST: f64 = 1e-6;
 /// Steps of a fit; what is fitted is nearly linear.
 const STEPS: usize = 6;
 /// Step of a difference over the size of a number.
@@ -101,7 +103,7 @@ impl Hearing<'_> {
         let named = self.named(&now, &probabilities, effects);
         let left = now.chi2 / self.measured();
         let loads = Loads {
-            words: words(&named, share, left),
+            words: words(&named, share, left, before.at[0] > LEAST),
             gain: self.estimates(&now).remove(0),
             recordings: self.scores(&before, &now).map_err(unfit)?,
             reduced_chi2: [before.chi2 / self.measured(), left],
@@ -130,7 +132,7 @@ impl Hearing<'_> {
                 }
             }
         }
-        (product / square).max(1e-6)
+        (product / square).max(LEAST)
     }
 
     fn quantities(&self, forms: &[usize]) -> Vec<&Quantity> {
@@ -175,7 +177,7 @@ impl Hearing<'_> {
 
     /// Least squares from these values.
     fn fit(&self, forms: Vec<usize>, mut at: Vec<f64>) -> Result<Fit, String> {
-        let ranges: Vec<(f64, f64)> = std::iter::once((1e-6, f64::MAX))
+        let ranges: Vec<(f64, f64)> = std::iter::once((LEAST, f64::MAX))
             .chain(self.quantities(&forms).into_iter().map(|q| q.range))
             .collect();
         let sizes: Vec<f64> = std::iter::once(at[0])
@@ -345,13 +347,16 @@ impl<'a> Reported<'a> {
 }
 
 /// What loads say, in a sentence.
-fn words(named: &[Named], share: f64, left: f64) -> String {
+fn words(named: &[Named], share: f64, left: f64, grows: bool) -> String {
     let all: Vec<&str> = named.iter().map(|n| n.words.as_str()).collect();
     let rest = match left {
         left if left > LEFT => format!(", and {left:.0} times what noise makes is left"),
         _ => String::new(),
     };
     match all[..] {
+        [] if left > LEFT && !grows => {
+            "What the motors report as their loads falls as the model's torques grow: is its sign reversed?".into()
+        }
         [] if left > LEFT => format!(
             "What the motors report as their loads differs from the model's torques by {:.0} times what noise makes, and \
              nothing that is known explains it.",

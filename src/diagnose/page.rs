@@ -64,7 +64,7 @@ fn held_out(d: &Diagnosis) -> String {
     };
     let (before, after) = (mean(&d.baseline.recordings), mean(&d.augmented.recordings));
     // effects that show in loads change no pose
-    let change = match before == after {
+    let change = match (before - after).abs() < 1e-9 {
         true => format!("is <b>{before:.3} mm</b>"),
         false => format!("goes from <b>{before:.3} mm</b> to <b>{after:.3} mm</b>"),
     };
