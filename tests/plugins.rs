@@ -7,7 +7,7 @@ use auxetica::config::{Plugin, options, plugins};
 use program::works;
 
 /// A crate that isn't linked, a plugin that is renamed or one that is new shows here.
-const SHIPPED: [(&str, &str); 72] = [
+const SHIPPED: [(&str, &str); 74] = [
     ("boundary", "Clamp"),
     ("boundary", "Hold"),
     ("boundary", "MotorAngle"),
@@ -37,8 +37,10 @@ const SHIPPED: [(&str, &str); 72] = [
     ("effects", "JointClearance"),
     ("effects", "JointCompliance"),
     ("effects", "KelvinVoigtEffect"),
+    ("effects", "LoadCalibration"),
     ("effects", "MarkerOffset"),
     ("effects", "MotorComplianceEffect"),
+    ("effects", "MotorFriction"),
     ("effects", "MotorLag"),
     ("effects", "MountTilt"),
     ("effects", "ObstacleEffect"),
