@@ -1,6 +1,6 @@
 //! What motors report as their loads tells of friction and of wrong readings, and of nothing where nothing is wrong.
 
-use auxetica::challenge::{NOMINAL, RECORDINGS, Spec, TRUTH, conceal};
+use auxetica::challenge::{Concealed, NOMINAL, RECORDINGS, Spec, TRUTH, Truth, conceal};
 use auxetica::config::Source;
 use auxetica::diagnose::verdict::{Diagnosis, Kind};
 use auxetica::diagnose::{Request, diagnose};
@@ -8,9 +8,9 @@ use auxetica::engine::scenario::{MotorLoads, Scenario, Turn};
 use auxetica::identify::Hooked;
 use std::path::Path;
 
-/// Diagnoses recordings that conceal an effect, or nothing, and gives the values that were concealed and the scenario with
-/// what was found.
-fn diagnosed(concealed: Option<&str>, seed: u64) -> (Diagnosis, Vec<f64>, Source) {
+/// Diagnoses recordings that conceal an effect, or nothing, and gives form and values that were concealed and the scenario
+/// with what was found.
+fn diagnosed(concealed: Option<&str>, seed: u64) -> (Diagnosis, Option<Concealed>, Source) {
     let folder = tempfile::tempdir().expect("a folder");
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_concealed.ron");
     let singles = usize::from(concealed.is_some());
@@ -44,11 +44,8 @@ fn diagnosed(concealed: Option<&str>, seed: u64) -> (Diagnosis, Vec<f64>, Source
     };
     let (diagnosis, augmented) = diagnose(&request, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
     let truth = std::fs::read_to_string(made.join(TRUTH)).expect("it is there");
-    let truth: serde_json::Value = serde_json::from_str(&truth).expect("it is JSON");
-    let values = truth[0]["effects"][0]["values"].as_array();
-    let value = |pair: &serde_json::Value| pair[1].as_f64().expect("a number");
-    let values = values.map_or(vec![], |values| values.iter().map(value).collect());
-    (diagnosis, values, augmented)
+    let mut truths: Vec<Truth> = serde_json::from_str(&truth).expect("it is a list of truths");
+    (diagnosis, truths[0].effects.pop(), augmented)
 }
 
 #[test]
@@ -65,24 +62,35 @@ fn loads_of_a_robot_without_faults_are_as_its_torques_say() {
 
 #[test]
 fn friction_and_wrong_readings_are_named_with_their_values_though_poses_show_nothing() {
+    // each kind of either is drawn
     let cases = [
-        ("motor_friction", 3, Kind::Effect, Hooked::Boundary),
-        ("motor_friction", 4, Kind::Effect, Hooked::Boundary),
-        ("load_calibration", 3, Kind::Recording, Hooked::Recording),
-        ("load_calibration", 4, Kind::Recording, Hooked::Recording),
+        ("always the same", 3, Kind::Effect),
+        ("in proportion to the torque", 5, Kind::Effect),
+        ("gain of motor", 3, Kind::Recording),
+        ("zero of motor", 5, Kind::Recording),
+        ("all zeros", 7, Kind::Recording),
     ];
-    for (id, seed, kind, hook) in cases {
+    for (form, seed, kind) in cases {
+        let (id, hook) = match kind {
+            Kind::Effect => ("motor_friction", Hooked::Boundary),
+            _ => ("load_calibration", Hooked::Recording),
+        };
         let (d, truth, augmented) = diagnosed(Some(id), seed);
+        let truth = truth.expect("it conceals something");
+        assert!(truth.form.starts_with(form), "{id}, {seed}: {}", truth.form);
         assert_eq!(d.verdict, kind, "{id}: {}", d.words);
         let [named] = &d.effects[..] else {
             panic!("{id}: {:?}", d.effects);
         };
         assert_eq!((named.id.as_str(), named.hook), (id, hook));
-        for (p, truth) in named.parameters.iter().zip(&truth) {
+        assert!(named.words.contains(&truth.form), "{}", named.words);
+        assert_eq!(named.parameters.len(), truth.values.len());
+        for (p, (_, truth)) in named.parameters.iter().zip(&truth.values) {
             let off = (p.value - truth).abs();
+            println!("{form}, {}: {} for {truth}", p.name, p.value);
             assert!(
                 off < 0.1 * truth,
-                "{id}, {}: {} for {truth}",
+                "{form}, {}: {} for {truth}",
                 p.name,
                 p.value
             );

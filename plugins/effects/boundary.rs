@@ -50,18 +50,19 @@ effect!(
     "tau_motor = tau + (f + mu |tau|) sgn(w), of which a share of friction stays at rest",
     "let a motor turn without its rod, both ways",
     "Coulomb friction",
-    |_robot| vec![
-        Variant::new("always the same")
+    |_robot| {
+        let always = Variant::new("always the same")
             .number("friction", "N m", (0.0, 0.05), (0.0, 5.0))
-            .number("share at rest", "-", (0.0, 0.5), (0.0, 1.0))
-            .set("motor_loads.friction", "{0}")
-            .set("motor_loads.held", "{1}"),
-        Variant::new("in proportion to the torque")
+            .set("motor_loads.friction", "{0}");
+        let in_proportion = Variant::new("in proportion to the torque")
             .number("friction over torque", "-", (0.0, 0.2), (0.0, 3.0))
-            .number("share at rest", "-", (0.0, 0.5), (0.0, 1.0))
-            .set("motor_loads.friction_of_torque", "{0}")
-            .set("motor_loads.held", "{1}"),
-    ],
+            .set("motor_loads.friction_of_torque", "{0}");
+        let held = |form: Variant| {
+            form.number("share at rest", "-", (0.0, 0.5), (0.0, 1.0))
+                .set("motor_loads.held", "{1}")
+        };
+        [always, in_proportion].map(held).into()
+    },
     in_loads
 );
 

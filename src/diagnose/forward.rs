@@ -174,31 +174,20 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Simulated less recorded at every sample.
+    /// What `read` finds at every sample.
     ///
     /// # Errors
     /// If a sample has no steady state.
-    fn all(&mut self, samples: &Samples) -> Result<Vec<f64>, CompareError> {
-        let mut apart = Vec::new();
-        for i in 0..samples.list.len() {
+    fn all<T>(
+        &mut self,
+        samples: &Samples,
+        read: impl Fn(&Shown, usize) -> T,
+    ) -> Result<Vec<T>, CompareError> {
+        let each = (0..samples.list.len()).map(|i| {
             self.go(samples, i, |_, _| Ok(()))?;
-            let Shown { model, points } = &self.shown;
-            apart.extend(difference(model, points, samples, i));
-        }
-        Ok(apart)
-    }
-
-    /// Torques with which the motors turn the rods \[N m\] at every sample.
-    ///
-    /// # Errors
-    /// If a sample has no steady state.
-    fn torques(&mut self, samples: &Samples) -> Result<Vec<[f64; 4]>, CompareError> {
-        let mut torques = Vec::new();
-        for i in 0..samples.list.len() {
-            self.go(samples, i, |_, _| Ok(()))?;
-            torques.push(self.shown.model.motor_torques());
-        }
-        Ok(torques)
+            Ok(read(&self.shown, i))
+        });
+        each.collect()
     }
 
     /// Whitened residuals, derivatives by numbers of which `pairs` has the steps and the models with larger and smaller
@@ -287,7 +276,9 @@ fn difference(model: &Model, points: &Points, samples: &Samples, i: usize) -> [f
 /// # Errors
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, CompareError> {
-    Run::new(source, samples, None)?.all(samples)
+    let apart = |shown: &Shown, i| difference(&shown.model, &shown.points, samples, i);
+    let each = Run::new(source, samples, None)?.all(samples, apart)?;
+    Ok(each.into_iter().flatten().collect())
 }
 
 /// Torques with which the motors turn the rods \[N m\] at every sample, however long it takes.
@@ -295,7 +286,7 @@ pub fn differences(source: &Source, samples: &Samples) -> Result<Vec<f64>, Compa
 /// # Errors
 /// If the scenario can't be built, or a sample has no steady state.
 pub fn torques(source: &Source, samples: &Samples) -> Result<Vec<[f64; 4]>, CompareError> {
-    Run::new(source, samples, None)?.torques(samples)
+    Run::new(source, samples, None)?.all(samples, |shown, _| shown.model.motor_torques())
 }
 
 /// Residuals of a recording in standard deviations.

@@ -3,7 +3,8 @@
 //! Recordings are reduced to samples ([`samples`]), a scenario to residuals there ([`forward`]). The scenario's own
 //! uncertain numbers are calibrated first, since they hide physics; then every effect that is linked into the program is
 //! added in turn, linearised, and the best are fitted together with those numbers ([`search`]). An effect is named if it
-//! explains enough on the recordings that are trained on, worsens none of them, and holds on recordings held out.
+//! explains enough on the recordings that are trained on, worsens none of them, and holds on recordings held out. What the
+//! motors report as their loads is held against the model that explains the poses ([`loads`]).
 
 mod conclusion;
 pub mod curves;

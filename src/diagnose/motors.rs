@@ -1,15 +1,20 @@
 //! How a recording's motors turn, and what they report.
 
-use super::samples::Reading;
+use super::samples::{Reading, deviation};
 use crate::compare::{CompareError, turns};
 use crate::engine::scenario::Turn;
 use crate::recordings::{MotorAngles, Recording};
 
 /// Fewest rows that say anything.
 const FEWEST: usize = 20;
+/// Time that loads may be ahead of poses or behind them [s].
+const LAG: f64 = 0.04;
+/// Standard deviation of what is rounded to whole numbers.
+const ROUNDED: f64 = 0.29;
 
 /// Motors row by row.
 pub(super) struct Motors {
+    /// Their angles.
     pub(super) angles: MotorAngles,
     /// How they turn.
     turns: Vec<[Turn; 4]>,
@@ -70,15 +75,10 @@ impl Motors {
     }
 }
 
-/// Time that loads may be ahead of poses or behind them [s].
-const LAG: f64 = 0.04;
-/// Standard deviation of what is rounded to whole numbers.
-const ROUNDED: f64 = 0.29;
-
 /// Deviation of loads from row to row where motors rest, over the root of two.
 fn noise(loads: &[[f64; 4]], still: &[bool]) -> f64 {
     let resting = (1..loads.len()).filter(|row| still[row - 1] && still[*row]);
     let steps =
         resting.flat_map(|row| (0..4).map(move |i| (loads[row][i] - loads[row - 1][i]).abs()));
-    super::samples::deviation(steps.collect(), ROUNDED)
+    deviation(steps.collect(), ROUNDED)
 }

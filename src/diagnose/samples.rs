@@ -268,18 +268,14 @@ impl Samples {
 
     fn reduced(
         recording: &Recording,
-        Motors {
-            angles: motors,
-            still,
-            ..
-        }: &Motors,
+        Motors { angles, still, .. }: &Motors,
         series: Vec<[f64; 4]>,
         mut list: Vec<Sample>,
         (reference, noise): (Reference, (f64, f64)),
     ) -> Result<Self, CompareError> {
         let travel: [f64; 4] = std::array::from_fn(|i| {
-            let angles = motors.present.iter().map(|a| a[i]);
-            angles.clone().fold(f64::MIN, f64::max) - angles.fold(f64::MAX, f64::min)
+            let own = angles.present.iter().map(|a| a[i]);
+            own.clone().fold(f64::MIN, f64::max) - own.fold(f64::MAX, f64::min)
         });
         let furthest = travel.iter().copied().fold(0.0, f64::max);
         if furthest < NO_TURN {
@@ -296,7 +292,7 @@ impl Samples {
                 "recording `{}` comes to rest fewer than three times in its {:.0} s; a diagnosis needs set-points that are \
                  held (times are in s, motor positions in ticks of which 4096 are a turn)",
                 recording.name,
-                motors.time[motors.time.len() - 1] - motors.time[0]
+                angles.time[angles.time.len() - 1] - angles.time[0]
             )));
         }
         thin(&mut list, MOST);
@@ -310,15 +306,15 @@ impl Samples {
             row.is_multiple_of(every)
         };
         let passed = (0..still.len()).filter(lively);
-        let passed = passed.map(|row| motors.time[row]).collect();
-        let inputs = motor_inputs(&motors.time, &series).map_err(CompareError::Unfit)?;
+        let passed = passed.map(|row| angles.time[row]).collect();
+        let inputs = motor_inputs(&angles.time, &series).map_err(CompareError::Unfit)?;
         Ok(Self {
             name: recording.name.clone(),
             list,
             inputs,
             passed,
             reference,
-            rest: motors.time[0],
+            rest: angles.time[0],
             noise,
             wider: [1.0; KINDS.len()],
             flipped: 0,

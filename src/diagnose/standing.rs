@@ -16,7 +16,7 @@ use statrs::statistics::{Data, Median};
 use std::sync::Arc;
 
 /// Share of chi2 that an effect must explain to be named, and a further one where little is left to explain.
-const GAIN: [f64; 2] = [0.25, 0.5];
+pub(super) const GAIN: [f64; 2] = [0.25, 0.5];
 /// The same where the calibrated scenario is far off: many things are missing then, none of which explains much.
 const GAIN_FAR_OFF: f64 = 0.1;
 /// How many effects are held against recordings held out before a search is given up.

@@ -44,8 +44,8 @@ pub fn diagnose_curves(
     let start = std::time::Instant::now();
     let rods = rods(request)?;
     let mut effects = chosen(request.effects)?;
-    // a law that only describes is for robots
-    effects.retain(|effect| effect.is_cause());
+    // a law that only describes is for robots, and no motor's load is on a curve
+    effects.retain(|effect| effect.is_cause() && !effect.in_loads());
     let all = |rod: &Rod, own: &[f64]| rod.compared(own, None, &rod.curves);
     let free = each(&rods, |_, rod| {
         rod.calibrated(&rod.stated(), None, &rod.curves)

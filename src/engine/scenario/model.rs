@@ -51,11 +51,15 @@ impl Model {
     }
 
     /// Torques that turn the starts of the first four rods about their axes \[N m\]: what their first two elements pass on,
-    /// before division by the dilatation. Zero for rods that aren't there.
+    /// before division by the dilatation. Zero for rods that aren't there or have one element.
     pub fn motor_torques(&self) -> [f64; 4] {
         let bodies = self.system.ids().iter().map(|id| self.system.body(*id));
-        let mut rods = bodies.filter(|body| body.elements() > 1);
-        std::array::from_fn(|_| rods.next().map_or(0.0, |rod| -rod.couple(1).z))
+        let mut rods = bodies.filter(|body| body.elements() > 0);
+        let torque = |rod: Body<'_>| match rod.elements() {
+            1 => 0.0,
+            _ => -rod.couple(1).z,
+        };
+        std::array::from_fn(|_| rods.next().map_or(0.0, torque))
     }
 }
 
