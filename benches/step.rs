@@ -4,7 +4,9 @@
 //! figures follow.
 
 use auxetica::config::Source;
-use auxetica::engine::{ImplicitOptions, ImplicitSolver, Inputs, Model, Series};
+use auxetica::engine::{
+    ImplicitOptions, ImplicitSolver, Inputs, Model, MotionSensitivities, Series,
+};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -32,8 +34,8 @@ fn rods(rods: usize, elements: usize) -> Model {
     Model::build(&source, None).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The paper's robot while its motors turn.
-fn robot() -> Model {
+/// The paper's robot, and inputs that turn its motors.
+fn robot() -> (Source, Inputs) {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot.ron");
     let source = Source::load(&path, &[]).unwrap_or_else(|e| panic!("{e}"));
     let motor = |(i, handed): (usize, f64)| {
@@ -41,7 +43,12 @@ fn robot() -> Model {
         (format!("motor_{}", i + 1), series.expect("two points"))
     };
     let motors = [1.0, -1.0, 1.0, -1.0].into_iter().enumerate().map(motor);
-    Model::build(&source, Some(Inputs::new(motors.collect()))).unwrap_or_else(|e| panic!("{e}"))
+    let inputs = Inputs::new(motors.collect());
+    (source, inputs)
+}
+
+fn build(source: &Source, inputs: &Inputs) -> Model {
+    Model::build(source, Some(inputs.clone())).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn advance(model: &mut Model, count: u64) {
@@ -94,20 +101,45 @@ fn table(_: &mut Criterion) {
     let memory = allocation_counter::measure(|| model = Some(rods(1, 100_000)));
     println!("{} bytes an element", memory.bytes_current / 100_000);
     drop(model);
-    let time = least(&mut robot(), 10);
+    let (source, inputs) = robot();
+    let time = least(&mut build(&source, &inputs), 10);
     println!("the paper's robot {:.3} us a step", time * 1e6);
-    println!("the same, implicit {:.3} us a step", implicit() * 1e6);
+    println!("the same, implicit {:.3} us a step", implicit(&[]) * 1e6);
+    let time = threads(1).install(|| implicit(&NUMBERS));
+    println!("the same with ten derivatives {:.3} us a step", time * 1e6);
 }
 
-/// Mean time of an implicit step of 0.02 s of the robot while its motors turn \[s\].
-fn implicit() -> f64 {
-    const STEPS: u32 = 5000;
-    let mut model = robot();
+/// Numbers of the paper's robot.
+const NUMBERS: [&str; 10] = [
+    "rods[0].length",
+    "rods[0].density",
+    "rods[0].material.youngs",
+    "rods[0].material.shear",
+    "rods[0].material.bending",
+    "rods[0].material.twist",
+    "laws[*].apply.factor",
+    "joints[0].apply.stiffness",
+    "joints[0].apply.rotational_stiffness",
+    "cylinders[0].radius",
+];
+
+/// Mean time of an implicit step of 0.02 s of the robot while its motors turn, with derivatives by some numbers \[s\].
+fn implicit(numbers: &[&str]) -> f64 {
+    const STEPS: u32 = 2000;
+    let (source, inputs) = robot();
+    let mut model = build(&source, &inputs);
     let options = ImplicitOptions::default();
     let mut solver = ImplicitSolver::new(&mut model.system, options).expect("a robot");
+    let sensitivities = MotionSensitivities::new(&solver, &source, Some(&inputs), numbers);
+    let mut sensitivities = sensitivities.unwrap_or_else(|e| panic!("{e}"));
     let start = Instant::now();
     for step in 1..=STEPS {
-        let moved = solver.advance(&mut model.system, 0.02 * f64::from(step));
+        let (system, time) = (&mut model.system, 0.02 * f64::from(step));
+        let moved = if numbers.is_empty() {
+            solver.advance(system, time)
+        } else {
+            sensitivities.advance(&mut solver, system, time)
+        };
         moved.unwrap_or_else(|e| panic!("{e}"));
     }
     start.elapsed().as_secs_f64() / f64::from(STEPS)
@@ -124,7 +156,8 @@ fn step(c: &mut Criterion) {
     group.finish();
     let mut group = c.benchmark_group("step");
     group.throughput(Throughput::Elements(100));
-    let mut model = robot();
+    let (source, inputs) = robot();
+    let mut model = build(&source, &inputs);
     group.bench_function("robot", |b| b.iter(|| advance(&mut model, 100)));
     group.finish();
 }

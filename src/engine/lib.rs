@@ -28,6 +28,7 @@ pub mod stability;
 pub mod steady;
 mod step;
 pub mod system;
+mod varied;
 pub mod vectors;
 pub mod view;
 
@@ -41,7 +42,7 @@ pub use hooks::{
     Actuation, BoundaryCondition, Callback, CallbackError, Damping, Drive, Dwell, Forcing, Joint,
     RodLaw, Setting, Snapshot,
 };
-pub use implicit::{ImplicitOptions, ImplicitReport, ImplicitSolver, NoStep};
+pub use implicit::{ImplicitOptions, ImplicitReport, ImplicitSolver, MotionSensitivities, NoStep};
 pub use inputs::{Inputs, Moment, Series, Signal};
 pub use rod::{Rod, Section};
 pub use run::{RunError, Summary};

@@ -5,18 +5,19 @@
 //! steady solver. It is of second order and stable for any length; vibrations much faster than it decay by the spectral
 //! radius a step. Laws with a memory see the ends of steps only, so what they add is of first order.
 
+mod loads;
 mod motion;
 mod scheme;
+mod sensitivity;
 
-use crate::bodies::State;
 use crate::group::Group;
-use crate::rotation;
 use crate::steady::diagnosis;
 use crate::steady::tangent::Tangent;
 use crate::steady::unknowns::{Freedom, PER_STATION, Unknowns};
 use crate::system::System;
-use nalgebra::Vector3;
+use motion::Motion;
 use scheme::Scheme;
+pub use sensitivity::MotionSensitivities;
 
 /// How implicit steps are taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,41 +77,17 @@ const HARMLESS: f64 = 0.02;
 /// Relative change of the step for which factors are kept.
 const SAME_STEP: f64 = 0.2;
 
+/// What is done at the end of a step of a length \[s\].
+type Ended<'a> = dyn FnMut(&mut ImplicitSolver, &mut System, f64) -> Result<(), String> + 'a;
+
 /// Steps one system through time.
 pub struct ImplicitSolver {
     options: ImplicitOptions,
-    scheme: Scheme,
-    unknowns: Unknowns,
-    freedom: Freedom,
+    motion: Motion,
     tangent: Tangent,
     /// The step that the factors are for, if there are any.
     factors: Option<f64>,
     report: ImplicitReport,
-    /// Poses and rates at the start of the step, group by group.
-    start: Vec<State>,
-    before: Accelerations,
-    after: Accelerations,
-    /// Inertia of every unknown.
-    inertia: Vec<f64>,
-    loads: Vec<f64>,
-    change: Vec<f64>,
-}
-
-/// Accelerations of every unknown \[1/s2\].
-struct Accelerations {
-    /// The scheme's own, which its rates follow.
-    scheme: Vec<f64>,
-    /// Those of the equations of motion.
-    truly: Vec<f64>,
-}
-
-impl Accelerations {
-    fn zeros(size: usize) -> Self {
-        Self {
-            scheme: vec![0.0; size],
-            truly: vec![0.0; size],
-        }
-    }
 }
 
 impl ImplicitSolver {
@@ -131,28 +108,15 @@ impl ImplicitSolver {
         let freedom = Freedom::of(system, &unknowns).map_err(fail)?;
         system.restore(&present);
         let reach = unknowns.reach(system);
-        let size = unknowns.stations * PER_STATION;
-        let mut solver = Self {
-            scheme: Scheme::new(options.spectral_radius),
+        let tangent = Tangent::new(system, &unknowns, reach);
+        let scheme = Scheme::new(options.spectral_radius);
+        Ok(Self {
+            motion: Motion::new(system, scheme, unknowns, freedom),
             options,
-            tangent: Tangent::new(system, &unknowns, reach),
-            unknowns,
-            freedom,
+            tangent,
             factors: None,
             report: ImplicitReport::default(),
-            start: vec![State::default(); system.groups.len()],
-            before: Accelerations::zeros(size),
-            after: Accelerations::zeros(size),
-            inertia: vec![0.0; size],
-            loads: vec![0.0; size],
-            change: vec![0.0; size],
-        };
-        solver.find_residual(system);
-        let first = solver.loads.iter().zip(&solver.inertia).map(|(l, i)| l / i);
-        solver.before.truly = first.collect();
-        solver.freedom.project(&mut solver.before.truly);
-        solver.before.scheme.clone_from(&solver.before.truly);
-        Ok(solver)
+        })
     }
 
     /// What steps have cost so far.
@@ -163,6 +127,16 @@ impl ImplicitSolver {
     /// Moves the system to `time` \[s\], in one step or, where Newton's method doesn't converge, in as few as it does
     /// for. On failure the system is left where the last step has brought it.
     pub fn advance(&mut self, system: &mut System, time: f64) -> Result<(), NoStep> {
+        self.advance_with(system, time, &mut |_, _, _| Ok(()))
+    }
+
+    /// The same, with something to do at the end of each step before it becomes the past.
+    fn advance_with(
+        &mut self,
+        system: &mut System,
+        time: f64,
+        ended: &mut Ended<'_>,
+    ) -> Result<(), NoStep> {
         let whole = time - system.time;
         let mut step = whole;
         while system.time < time {
@@ -173,7 +147,7 @@ impl ImplicitSolver {
             } else {
                 from + step
             };
-            match self.step(system, to) {
+            match self.step(system, to, ended) {
                 Ok(()) => step = 2.0 * (to - from),
                 Err(reason) => {
                     self.return_to(system, from);
@@ -193,22 +167,26 @@ impl ImplicitSolver {
     }
 
     /// One step to `time` \[s\].
-    fn step(&mut self, system: &mut System, time: f64) -> Result<(), String> {
+    fn step(
+        &mut self,
+        system: &mut System,
+        time: f64,
+        ended: &mut Ended<'_>,
+    ) -> Result<(), String> {
         let h = time - system.time;
-        for (start, group) in self.start.iter_mut().zip(&system.groups) {
-            start.copy_from(&group.bodies.state);
-        }
-        self.predict(system, h);
+        self.motion.begin(system);
+        self.motion.predict(system, h);
         system.time = time;
         system.set_values();
         self.newton(system, h)?;
-        self.follow(system, h);
+        self.motion.follow(system, h);
         self.check(system)?;
+        ended(self, system, h)?;
         if system.remembers() {
             system.evaluate();
             system.remember();
         }
-        std::mem::swap(&mut self.before, &mut self.after);
+        self.motion.end();
         system.steps += 1;
         self.report.steps += 1;
         Ok(())
@@ -224,23 +202,6 @@ impl ImplicitSolver {
         })
     }
 
-    /// Moves what is free as far as its rates and accelerations take it.
-    fn predict(&mut self, system: &mut System, h: f64) {
-        let scale = self.unknowns.scale;
-        let states = system.groups.iter().map(|g| &g.bodies.state);
-        let stations = states.flat_map(|s| (0..s.position.len()).map(move |k| (s, k)));
-        let parts = (self.change.chunks_exact_mut(PER_STATION))
-            .zip(self.before.scheme.chunks_exact(PER_STATION));
-        for ((state, k), (change, acceleration)) in stations.zip(parts) {
-            let (velocity, omega) = (state.velocity.get(k) / scale, state.omega.get(k));
-            for (i, rate) in velocity.iter().chain(omega.iter()).enumerate() {
-                change[i] = h * (rate + h / 2.0 * acceleration[i]);
-            }
-        }
-        self.freedom.project(&mut self.change);
-        self.unknowns.displace_all(&mut system.groups, &self.change);
-    }
-
     /// Poses that are in equilibrium with inertia at the end of a step of `h`.
     fn newton(&mut self, system: &mut System, h: f64) -> Result<(), String> {
         let usable = |made_for: f64| (h / made_for - 1.0).abs() < SAME_STEP;
@@ -249,9 +210,9 @@ impl ImplicitSolver {
         let mut worst = 0;
         for iteration in 1..=self.options.iterations {
             self.report.iterations += 1;
-            self.follow(system, h);
-            self.find_residual(system);
-            if !self.loads.iter().all(|v| v.is_finite()) {
+            self.motion.follow(system, h);
+            self.motion.find_residual(system);
+            if !self.motion.residual.iter().all(|v| v.is_finite()) {
                 return Err(diagnosis::not_finite(system));
             }
             let mut fresh = self.factors.is_none();
@@ -267,7 +228,9 @@ impl ImplicitSolver {
             if fresh && size > last && size > HARMLESS {
                 break;
             }
-            self.unknowns.displace_all(&mut system.groups, &self.change);
+            self.motion
+                .unknowns
+                .displace_all(&mut system.groups, &self.motion.change);
             // what is left after it, if the next ones shrink as this one has
             let ratio = if iteration == 1 { UNTRIED } else { size / last };
             if size * ratio < self.options.tolerance {
@@ -277,68 +240,20 @@ impl ImplicitSolver {
         }
         Err(format!(
             "Newton's method doesn't converge, least at {}",
-            diagnosis::place(system, &self.unknowns, worst)
+            diagnosis::place(system, &self.motion.unknowns, worst)
         ))
-    }
-
-    /// Rates and accelerations at the end of a step of `h` that has led to the present poses.
-    fn follow(&mut self, system: &mut System, h: f64) {
-        let scale = self.unknowns.scale;
-        let mut stations = (self.before.scheme.chunks_exact(PER_STATION))
-            .zip(self.before.truly.chunks_exact(PER_STATION))
-            .zip(self.after.scheme.chunks_exact_mut(PER_STATION))
-            .zip(self.after.truly.chunks_exact_mut(PER_STATION));
-        for (group, start) in system.groups.iter_mut().zip(&self.start) {
-            let state = &mut group.bodies.state;
-            for k in 0..state.position.len() {
-                let Some((((before, truly_before), after), truly)) = stations.next() else {
-                    return;
-                };
-                let shift = (state.position.get(k) - start.position.get(k)) / scale;
-                let turn = rotation::between(&start.director.get(k), &state.director.get(k));
-                let (velocity, omega) = (start.velocity.get(k) / scale, start.omega.get(k));
-                let motion = shift.iter().chain(turn.iter());
-                let rates = velocity.iter().chain(omega.iter());
-                let mut now = [0.0; PER_STATION];
-                for (i, (motion, rate)) in motion.zip(rates).enumerate() {
-                    let scheme = &self.scheme;
-                    after[i] = scheme.acceleration(h, *motion, *rate, before[i]);
-                    truly[i] = scheme.true_acceleration(truly_before[i], before[i], after[i]);
-                    now[i] = scheme.rate(h, *rate, before[i], after[i]);
-                }
-                let [x, y, z, turning @ ..] = now;
-                state.velocity.set(k, Vector3::new(x, y, z) * scale);
-                state.omega.set(k, turning.into());
-            }
-        }
-        self.freedom.project(&mut self.after.scheme);
-        self.freedom.project(&mut self.after.truly);
-        system.set_rates();
-    }
-
-    /// Loads less inertia in free directions, as the right-hand side takes them.
-    fn find_residual(&mut self, system: &mut System) {
-        system.evaluate_by(Group::loads_in_motion);
-        self.unknowns.read_loads(&system.groups, &mut self.loads);
-        self.unknowns
-            .read_inertia(&system.groups, &mut self.inertia);
-        let parts = self.inertia.iter().zip(&self.after.truly);
-        for (load, (inertia, acceleration)) in self.loads.iter_mut().zip(parts) {
-            *load -= inertia * acceleration;
-        }
-        self.freedom.project(&mut self.loads);
     }
 
     /// Solves for the motion of all stations towards equilibrium. Returns its largest rotation \[rad\] or displacement in
     /// element lengths, and where that is.
     fn correction(&mut self, worst: &mut usize) -> Result<f64, String> {
-        for (change, load) in self.change.iter_mut().zip(&self.loads) {
+        for (change, load) in self.motion.change.iter_mut().zip(&self.motion.residual) {
             *change = -load;
         }
-        if !self.tangent.solve(&mut self.change) {
+        if !self.tangent.solve(&mut self.motion.change) {
             return Err("the tangent matrix is singular".into());
         }
-        let sizes = self.change.iter().enumerate();
+        let sizes = self.motion.change.iter().enumerate();
         let largest = sizes.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
         let (at, size) = largest.map_or((0, 0.0), |(i, v)| (i, v.abs()));
         *worst = at / PER_STATION;
@@ -348,14 +263,19 @@ impl ImplicitSolver {
     /// The tangent matrix of the present state and its factors, for a step of `h`.
     fn factorise(&mut self, system: &mut System, h: f64) -> Result<(), String> {
         self.factors = None;
-        let (rate, acceleration) = self.scheme.slopes(h);
+        let (rate, acceleration) = self.motion.scheme.slopes(h);
         self.tangent
-            .fill(system, &self.unknowns, Group::loads_in_motion, rate);
+            .fill(system, &self.motion.unknowns, Group::loads_in_motion, rate);
         if let Some(station) = self.tangent.not_finite() {
-            return Err(diagnosis::no_derivative(system, &self.unknowns, station));
+            return Err(diagnosis::no_derivative(
+                system,
+                &self.motion.unknowns,
+                station,
+            ));
         }
-        self.tangent.subtract_inertia(&self.inertia, acceleration);
-        self.tangent.factorise(&self.freedom);
+        self.tangent
+            .subtract_inertia(&self.motion.inertia, acceleration);
+        self.tangent.factorise(&self.motion.freedom);
         self.report.factorisations += 1;
         self.factors = Some(h);
         Ok(())
@@ -363,7 +283,7 @@ impl ImplicitSolver {
 
     /// Back to the start of a step that failed.
     fn return_to(&mut self, system: &mut System, time: f64) {
-        for (start, group) in self.start.iter().zip(&mut system.groups) {
+        for (start, group) in self.motion.start.iter().zip(&mut system.groups) {
             group.bodies.state.copy_from(start);
         }
         system.time = time;

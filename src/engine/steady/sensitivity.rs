@@ -11,22 +11,13 @@ use super::{NotSteady, SteadyReport, SteadySolver};
 use crate::inputs::Inputs;
 use crate::scenario::Model;
 use crate::system::System;
+use crate::varied::Varied;
 use auxetica_config::{Problems, Source};
 use nalgebra::DMatrix;
 
-/// Step of the differences, as a share of the number; of a number that is zero, in its own unit.
-const STEP: f64 = 1e-4;
-
-/// A number of the scenario.
-struct Parameter {
-    step: f64,
-    /// The scenarios in which it is larger and smaller by the step.
-    models: [Model; 2],
-}
-
 /// Derivatives of a scenario's steady states with respect to some of its numbers.
 pub struct Sensitivities {
-    parameters: Vec<Parameter>,
+    parameters: Vec<Varied>,
 }
 
 impl Sensitivities {
@@ -38,14 +29,7 @@ impl Sensitivities {
     /// If a path means no number, or different ones, or one that can't be varied: a count, or a number at the end of
     /// what is allowed.
     pub fn new(source: &Source, inputs: Option<&Inputs>, paths: &[&str]) -> Result<Self, Problems> {
-        let stations = Model::build(source, inputs.cloned())?.system.stations();
-        let mut problems = Problems::default();
-        let mut parameters = Vec::new();
-        for path in paths {
-            let parameter = Parameter::new(source, inputs, path, stations);
-            parameters.extend(problems.collect(parameter));
-        }
-        problems.into_result()?;
+        let parameters = Varied::all(source, inputs, paths)?;
         Ok(Self { parameters })
     }
 
@@ -53,7 +37,7 @@ impl Sensitivities {
     /// larger and smaller by that step. All have the bodies of the model that is solved.
     pub fn between(pairs: Vec<(f64, [Model; 2])>) -> Self {
         let parameters = pairs.into_iter();
-        let parameters = parameters.map(|(step, models)| Parameter { step, models });
+        let parameters = parameters.map(|(step, models)| Varied { step, models });
         Self {
             parameters: parameters.collect(),
         }
@@ -90,50 +74,7 @@ impl Sensitivities {
     }
 }
 
-impl Parameter {
-    fn new(
-        source: &Source,
-        inputs: Option<&Inputs>,
-        path: &str,
-        stations: usize,
-    ) -> Result<Self, Problems> {
-        let problem = |message: String, hint: &str| -> Problems {
-            source.problem(path, message).with_hint(hint).into()
-        };
-        let value = source.number(path).map_err(|e| {
-            let (what, remedy) = e.split_once("; ").unwrap_or((&e, ""));
-            problem(what.to_owned(), remedy)
-        })?;
-        let step = if value == 0.0 {
-            STEP
-        } else {
-            STEP * value.abs()
-        };
-        let build = |value: f64| {
-            let varied = source.with(&[format!("{path}={value:?}")]);
-            let built = varied.and_then(|source| Model::build(&source, inputs.cloned()));
-            let model = built.map_err(|problems| {
-                let why = problems.0.first().map_or("", |p| &p.message);
-                problem(
-                    format!("`{path}` can't be varied: {value} is refused ({why})"),
-                    "derivatives need numbers that may be a little larger and smaller",
-                )
-            })?;
-            if model.system.stations() == stations {
-                Ok(model)
-            } else {
-                Err(problem(
-                    format!("`{path}` changes how many nodes there are"),
-                    "derivatives need numbers that may be a little larger and smaller",
-                ))
-            }
-        };
-        Ok(Self {
-            step,
-            models: [build(value + step)?, build(value - step)?],
-        })
-    }
-
+impl Varied {
     /// Displacements of all stations for a unit of the parameter.
     fn change(
         &mut self,

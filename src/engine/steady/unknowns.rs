@@ -10,6 +10,7 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 pub(crate) const PER_STATION: usize = 6;
 
 /// Numbers all stations of a system and scales their unknowns.
+#[derive(Clone)]
 pub(crate) struct Unknowns {
     /// First station of each group.
     offsets: Vec<usize>,
@@ -169,6 +170,7 @@ impl Unknowns {
 }
 
 /// Which combinations of a station's unknowns are free: the projection that the boundary conditions make of rates.
+#[derive(Clone)]
 pub(crate) struct Freedom {
     /// One projection a station.
     pub(crate) free: Vec<Matrix6<f64>>,

