@@ -143,7 +143,7 @@ fn describes(said: &[String]) -> bool {
 
 /// Whether a mismatch is given to causes, without a warning.
 fn given(verdict: Kind, said: &[String]) -> bool {
-    !matches!(verdict, Kind::Unexplained | Kind::None) && !describes(said)
+    !matches!(verdict, Kind::Unexplained | Kind::None | Kind::Insufficient) && !describes(said)
 }
 
 /// Effects that a diagnosis names, then alternatives.

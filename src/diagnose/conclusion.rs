@@ -17,6 +17,9 @@ const EXPLAINED: f64 = 0.6;
 /// Deviations from its prior beyond which a calibrated number is told.
 const FAR: f64 = 2.5;
 
+/// Times its typical strength from which on an effect that never shows is said to.
+const NEVER: f64 = 1e6;
+
 /// What a diagnosis says that began at `baseline` and ended at `last`.
 pub(super) fn conclude(
     baseline: &Standing<'_>,
@@ -34,7 +37,15 @@ pub(super) fn conclude(
     let worsened = last.scores.worsened(&baseline.scores);
     let mut all: Vec<&dyn Effect> = last.named.iter().map(|(f, _)| &**effect(*f)).collect();
     all.dedup_by_key(|effect| effect.id());
-    let kind = kind(baseline, last, (explained, !worsened.is_empty()), &all);
+    let mut kind = kind(baseline, last, (explained, !worsened.is_empty()), &all);
+    let noticeable = match kind {
+        Kind::None => noticeable(baseline, forms, effects),
+        _ => vec![],
+    };
+    let unseen = noticeable.iter().filter(|n| n.share > 1.0).count();
+    if 2 * unseen > noticeable.len() {
+        kind = Kind::Insufficient;
+    }
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
     let alike: Vec<&dyn Effect> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
@@ -57,7 +68,14 @@ pub(super) fn conclude(
     let measured = last.trial.measured() as usize;
     Diagnosis {
         verdict: kind,
-        words: sentence(kind, &named, (explained, last.mean_square()), &floor, &ids),
+        words: sentence(
+            kind,
+            &named,
+            (explained, last.mean_square()),
+            &floor,
+            &ids,
+            (unseen, noticeable.len()),
+        ),
         effects: named,
         alternatives: alternatives.collect(),
         experiment,
@@ -67,10 +85,7 @@ pub(super) fn conclude(
         augmented: (last.scores).fitted(fitted[..own.len()].to_vec(), last.mean_square()),
         explained,
         hidden: hidden(baseline, last),
-        noticeable: match kind {
-            Kind::None => noticeable(baseline, forms, effects),
-            _ => vec![],
-        },
+        noticeable,
         alarms: [alarms(own, &last.fit.at), worsened].concat(),
         audit: audit(train, holdout),
         loads: None,
@@ -248,6 +263,7 @@ fn noticeable(
             parameter: q.name.clone(),
             value: Some(value).filter(|v| q.range.0 <= *v && *v <= q.range.1),
             unit: q.unit.to_owned(),
+            share: share.min(NEVER),
         })
     };
     found.into_iter().filter_map(notice).collect()
@@ -328,11 +344,18 @@ fn sentence(
     (explained, left): (f64, f64),
     floor: &Floor,
     class: &[String],
+    (unseen, tried): (usize, usize),
 ) -> String {
     let words: Vec<&str> = named.iter().map(|n| n.words.as_str()).collect();
     let share = 100.0 * explained;
     let all = words.join("; ");
     match kind {
+        Kind::Insufficient => format!(
+            "Too little data: nothing is missing above the floor of {:.2} mm and {:.1} mrad, but {unseen} of {tried} effects \
+             would not show here at their typical strength. Let the motors turn further and in more combinations, and hold \
+             longer.",
+            floor.position_mm, floor.rotation_mrad
+        ),
         Kind::None => format!(
             "Nothing is missing above the floor of {:.2} mm and {:.1} mrad: the calibrated scenario explains the recordings.",
             floor.position_mm, floor.rotation_mrad

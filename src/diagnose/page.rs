@@ -52,6 +52,7 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Class => "One of several.",
         Kind::Several => "Several effects.",
         Kind::Unexplained => "Not explained.",
+        Kind::Insufficient => "Too little data.",
     }
 }
 

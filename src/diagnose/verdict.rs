@@ -19,6 +19,8 @@ pub enum Kind {
     Several,
     /// None of the effects that are known.
     Unexplained,
+    /// Nothing above the floor, in recordings in which most effects would not show.
+    Insufficient,
 }
 
 impl Kind {
@@ -54,7 +56,7 @@ pub struct Diagnosis {
     pub explained: f64,
     /// How much of the mismatch the calibration had hidden before the effects were named.
     pub hidden: Option<Hidden>,
-    /// If nothing is named: from which value each effect would have been.
+    /// If nothing is found: from which value each effect would have been.
     pub noticeable: Vec<Noticeable>,
     /// Calibrated numbers that ended where they should not be.
     pub alarms: Vec<String>,
@@ -142,8 +144,10 @@ impl Diagnosis {
         if !named.is_empty() {
             let poses = self.verdict;
             self.verdict = match (poses, &named[..]) {
-                (Kind::None, [one]) if one.hook == Hooked::Recording => Kind::Recording,
-                (Kind::None, [_]) => Kind::Effect,
+                (Kind::None | Kind::Insufficient, [one]) => match one.hook {
+                    Hooked::Recording => Kind::Recording,
+                    _ => Kind::Effect,
+                },
                 (Kind::Unexplained, _) => Kind::Unexplained,
                 _ => Kind::Several,
             };
@@ -200,6 +204,8 @@ pub struct Noticeable {
     pub value: Option<f64>,
     /// Unit.
     pub unit: String,
+    /// What that is of the effect's typical strength, at most 1e6; beyond 1 the effect may be there and not show.
+    pub share: f64,
 }
 
 impl Noticeable {
