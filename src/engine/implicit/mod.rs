@@ -9,6 +9,7 @@ mod loads;
 mod motion;
 mod scheme;
 mod sensitivity;
+mod settle;
 
 use crate::group::Group;
 use crate::steady::diagnosis;
@@ -147,7 +148,7 @@ impl ImplicitSolver {
             } else {
                 from + step
             };
-            match self.step(system, to, ended) {
+            match self.step(system, to, to - from, ended) {
                 Ok(()) => step = 2.0 * (to - from),
                 Err(reason) => {
                     self.return_to(system, from);
@@ -166,14 +167,14 @@ impl ImplicitSolver {
         Ok(())
     }
 
-    /// One step to `time` \[s\].
+    /// One step of `h` to `time` \[s\].
     fn step(
         &mut self,
         system: &mut System,
         time: f64,
+        h: f64,
         ended: &mut Ended<'_>,
     ) -> Result<(), String> {
-        let h = time - system.time;
         self.motion.begin(system);
         self.motion.predict(system, h);
         system.time = time;

@@ -62,16 +62,29 @@ impl Motion {
             residual: vec![0.0; size],
             change: vec![0.0; size],
         };
-        motion.find_residual(system);
-        let first = motion
-            .residual
-            .iter()
-            .zip(&motion.inertia)
-            .map(|(l, i)| l / i);
-        motion.before.truly = first.collect();
-        motion.freedom.project(&mut motion.before.truly);
-        motion.before.scheme.clone_from(&motion.before.truly);
+        motion.accelerate(system);
         motion
+    }
+
+    /// Accelerations at the start of a step, from the present state and rates.
+    fn accelerate(&mut self, system: &mut System) {
+        self.after.truly.fill(0.0);
+        self.find_residual(system);
+        let parts = self.residual.iter().zip(&self.inertia);
+        for (acceleration, (load, inertia)) in self.before.truly.iter_mut().zip(parts) {
+            *acceleration = load / inertia;
+        }
+        self.freedom.project(&mut self.before.truly);
+        self.before.scheme.copy_from_slice(&self.before.truly);
+    }
+
+    /// Takes all rates from a system.
+    pub(super) fn stop(&mut self, system: &mut System) {
+        for group in &mut system.groups {
+            group.bodies.state.velocity.clear_to_zero();
+            group.bodies.state.omega.clear_to_zero();
+        }
+        self.accelerate(system);
     }
 
     /// Another system with the same unknowns that moves on from its own present state and rates.
@@ -150,6 +163,17 @@ impl Motion {
             *load -= inertia * acceleration;
         }
         self.freedom.project(&mut self.residual);
+    }
+
+    /// The largest rate: rotations \[rad/s\], and displacements in lengths of the longest rod a second.
+    pub(super) fn largest_rate(&self, system: &System) -> f64 {
+        let states = system.groups.iter().map(|g| &g.bodies.state);
+        let stations = states.flat_map(|s| (0..s.position.len()).map(move |k| (s, k)));
+        let rate = |(s, k): (&State, usize)| {
+            let shift = s.velocity.get(k).amax() / (self.unknowns.scale * self.unknowns.longest);
+            shift.max(s.omega.get(k).amax())
+        };
+        stations.map(rate).fold(0.0, f64::max)
     }
 
     /// Ends a step: the next one begins with its accelerations.
