@@ -315,9 +315,13 @@ fn audit(train: &[Samples], holdout: &[Samples]) -> Vec<String> {
                 "; {n} left out, at which motion capture has a body turned by more than a radian against the scenario"
             ),
         };
+        let silent = match s.is_silent() {
+            true => "; its motors report no loads, so none are looked at",
+            false => "",
+        };
         let count = |phase: Phase| s.list.iter().filter(|sample| sample.phase == phase).count();
         format!(
-            "{}: {} set-points, {} samples on the way, noise {:.3} mm and {:.2} mrad a component{flipped}",
+            "{}: {} set-points, {} samples on the way, noise {:.3} mm and {:.2} mrad a component{flipped}{silent}",
             s.name,
             count(Phase::Settled),
             count(Phase::Moving),

@@ -67,11 +67,7 @@ pub(super) fn heard(
     effects: &[Box<dyn Effect>],
 ) -> Result<Option<Heard>, DiagnoseError> {
     let scenario: Scenario<'_> = source.parse()?;
-    let silent = |samples: &Samples| {
-        let mut all = samples.list.iter().flat_map(|sample| &sample.motors);
-        all.all(|motor| motor.load == 0.0)
-    };
-    if scenario.motor_loads.is_none() || train.iter().chain(holdout).any(silent) {
+    if scenario.motor_loads.is_none() || train.iter().chain(holdout).any(Samples::is_silent) {
         return Ok(None);
     }
     let train = Reported::all(source, train)?;

@@ -121,6 +121,13 @@ impl Samples {
         }
     }
 
+    /// Whether no motor reports any load.
+    #[must_use]
+    pub fn is_silent(&self) -> bool {
+        let mut all = self.list.iter().flat_map(|sample| &sample.motors);
+        all.all(|motor| motor.load == 0.0)
+    }
+
     /// Leaves out samples at which a body seems to be turned by more than a radian against a scenario, unless they are many;
     /// `apart` is simulated less recorded.
     pub fn leave_out_flips(&mut self, apart: &[f64]) {
