@@ -1,51 +1,21 @@
 //! What motors report as their loads tells of friction and of wrong readings, and of nothing where nothing is wrong.
 
-use auxetica::challenge::{Concealed, NOMINAL, RECORDINGS, Spec, TRUTH, Truth, conceal};
+mod common;
+
+use auxetica::challenge::Concealed;
 use auxetica::config::Source;
 use auxetica::diagnose::verdict::{Diagnosis, Kind};
-use auxetica::diagnose::{Request, diagnose};
 use auxetica::engine::scenario::{MotorLoads, Scenario, Turn};
 use auxetica::identify::Hooked;
-use std::path::Path;
+use common::concealed::{Case, Hidden};
 
 /// Diagnoses recordings that conceal an effect, or nothing, and gives form and values that were concealed and the scenario
 /// with what was found.
 fn diagnosed(concealed: Option<&str>, seed: u64) -> (Diagnosis, Option<Concealed>, Source) {
-    let folder = tempfile::tempdir().expect("a folder");
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_concealed.ron");
-    let singles = usize::from(concealed.is_some());
-    let listed: Vec<_> = concealed.iter().collect();
-    let spec = format!(
-        r#"(
-            scenario: {shipped:?}, seed: {seed},
-            controls: {controls}, singles: {singles}, doubles: 0, foreigners: 0, effects: {listed:?},
-            mesh: ("rods[0].elements", 12, 12), strength: (1, 1),
-            recordings: Simulated(
-                set_points: 10, angle: 6, speed: 1.05, hold: 1.5, rate: 9.26,
-                noise: (5e-5, 5e-4), bias: (1e-5, 1e-4), jitter: 2e-3,
-            ),
-        )"#,
-        controls = 1 - singles
-    );
-    let file = folder.path().join("spec.ron");
-    std::fs::write(&file, spec).expect("written");
-    let (spec, nominal) = Spec::load(&file).unwrap_or_else(|e| panic!("{e}"));
-    let made = folder.path().join("made");
-    conceal(&spec, &nominal, &made, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
-    let all = RECORDINGS.map(|name| made.join("case_000").join(name));
-    let source = Source::load(&made.join(NOMINAL), &[]).unwrap_or_else(|e| panic!("{e}"));
-    let effects = ["motor_friction", "load_calibration"].map(str::to_owned);
-    let request = Request {
-        source: &source,
-        train: &all[..2],
-        holdout: &all[2..],
-        effects: &effects,
-        seed: 1,
-    };
-    let (diagnosis, augmented) = diagnose(&request, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
-    let truth = std::fs::read_to_string(made.join(TRUTH)).expect("it is there");
-    let mut truths: Vec<Truth> = serde_json::from_str(&truth).expect("it is a list of truths");
-    (diagnosis, truths[0].effects.pop(), augmented)
+    let hidden = concealed.map_or(Hidden::Nothing, Hidden::Effect);
+    let case = Case::new(&hidden, seed, 6.0);
+    let (diagnosis, augmented) = case.diagnosed(&["motor_friction", "load_calibration"]);
+    (diagnosis, case.truth(), augmented)
 }
 
 #[test]

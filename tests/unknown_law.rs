@@ -1,14 +1,14 @@
 //! A law of the rods that no effect of the library has is described by its terms, and nothing else is.
 
-use auxetica::challenge::{NOMINAL, RECORDINGS, Spec, conceal};
+mod common;
+
 use auxetica::config::{Finite, Source};
 use auxetica::diagnose::forward::{differences, platform_rms};
 use auxetica::diagnose::samples::Samples;
-use auxetica::diagnose::verdict::{Diagnosis, Kind};
-use auxetica::diagnose::{Request, diagnose};
+use auxetica::diagnose::verdict::Kind;
 use auxetica::engine::{LawView, Moment, ReadBody, RodLaw, register};
+use common::concealed::{Case, Hidden};
 use nalgebra::Vector3;
-use std::path::{Path, PathBuf};
 
 /// Rods that pull with the square of their twist, and resist twist by that pull: the energy `c e k_z^2` per length, put
 /// together otherwise than the law that is to describe it.
@@ -43,59 +43,15 @@ impl RodLaw for TwistPull {
     }
 }
 
-/// Recordings of one robot that conceals this entry of its laws, or nothing.
-fn concealing(entry: Option<&str>) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_concealed.ron");
-    let (controls, foreigners) = (usize::from(entry.is_none()), usize::from(entry.is_some()));
-    let spec = format!(
-        r#"(
-            scenario: {shipped:?}, seed: 5,
-            controls: {controls}, singles: 0, doubles: 0, foreigners: {foreigners},
-            mesh: ("rods[0].elements", 14, 14), strength: (1, 1),
-            recordings: Simulated(
-                set_points: 8, angle: 6, speed: 1.05, hold: 1.5, rate: 9.26,
-                noise: (5e-5, 5e-4), bias: (1e-5, 1e-4), jitter: 2e-3,
-            ),
-            foreign: [(words: "a law", list: "laws", entry: {entry:?}, range: (1, 1))],
-        )"#,
-        entry = entry.unwrap_or_default()
-    );
-    let file = folder.path().join("spec.ron");
-    std::fs::write(&file, spec).expect("written");
-    let (spec, nominal) = Spec::load(&file).unwrap_or_else(|e| panic!("{e}"));
-    let out = folder.path().join("made");
-    conceal(&spec, &nominal, &out, &|_| ()).unwrap_or_else(|e| panic!("{e}"));
-    folder
-}
-
-fn recordings(folder: &Path) -> Vec<PathBuf> {
-    let all = RECORDINGS.iter();
-    all.map(|name| folder.join("made/case_000").join(name))
-        .collect()
-}
-
-fn diagnosed(folder: &Path, effects: &[&str]) -> (Diagnosis, Source) {
-    let nominal = folder.join("made").join(NOMINAL);
-    let source = Source::load(&nominal, &[]).unwrap_or_else(|e| panic!("{e}"));
-    let recordings = recordings(folder);
-    let effects: Vec<String> = effects.iter().map(|e| (*e).to_owned()).collect();
-    let (train, holdout) = recordings.split_at(2);
-    let request = Request {
-        source: &source,
-        train,
-        holdout,
-        effects: &effects,
-        seed: 1,
-    };
-    diagnose(&request, &|_| ()).unwrap_or_else(|e| panic!("{e}"))
-}
-
 #[test]
 fn a_law_of_no_effect_is_described_by_its_term_and_the_scenario_with_it_runs_to_the_same_figures() {
-    let made = concealing(Some("(apply: TwistPull(pull: 2e-3))"));
+    let made = Case::new(
+        &Hidden::Foreign("laws", "(apply: TwistPull(pull: 2e-3))"),
+        5,
+        6.0,
+    );
     let some = ["auxetic_nonlinearity", "unknown"];
-    let (d, augmented) = diagnosed(made.path(), &some);
+    let (d, augmented) = made.diagnosed(&some);
     println!("{}", d.words);
     assert_eq!(d.verdict, Kind::Effect, "{}", d.words);
     assert_eq!(d.effects.len(), 1);
@@ -121,7 +77,7 @@ fn a_law_of_no_effect_is_described_by_its_term_and_the_scenario_with_it_runs_to_
         .iter()
         .filter(|r| r.role == "holdout");
     let again = Source::from_text("again", augmented.text(), &[]).unwrap_or_else(|e| panic!("{e}"));
-    for (told, folder) in held_out.zip(&recordings(made.path())[2..]) {
+    for (told, folder) in held_out.zip(&made.recordings()[2..]) {
         let samples = Samples::read(folder).unwrap_or_else(|e| panic!("{e}"));
         let apart = differences(&again, &samples).unwrap_or_else(|e| panic!("{e}"));
         let rms = platform_rms(&apart, &samples).0;
@@ -136,14 +92,33 @@ fn a_law_of_no_effect_is_described_by_its_term_and_the_scenario_with_it_runs_to_
 }
 
 #[test]
+fn a_cause_that_would_have_to_be_what_it_cannot_be_is_not_given() {
+    // nearly a cable that is far away: its numbers would go on and on
+    let force = "(on: \"rod_1\", apply: EndForce(force: (1.2, 1.2, 0)))";
+    let (d, _) = Case::new(&Hidden::Foreign("forcing", force), 5, 6.0).diagnosed(&["tether"]);
+    println!("{}", d.words);
+    assert_eq!(d.verdict, Kind::Unexplained, "{}", d.words);
+    assert!(
+        d.words.contains("ended where what is physical ends"),
+        "{}",
+        d.words
+    );
+    assert!(d.explained > 0.9, "{}", d.explained);
+}
+
+#[test]
 fn a_known_effect_and_a_control_are_given_no_law() {
-    let made = concealing(Some("(on: \"rod_1\", apply: Extension(gain: 0.9))"));
-    let (d, _) = diagnosed(made.path(), &["rod_asymmetry", "unknown"]);
+    let made = Case::new(
+        &Hidden::Foreign("laws", "(on: \"rod_1\", apply: Extension(gain: 0.9))"),
+        5,
+        6.0,
+    );
+    let (d, _) = made.diagnosed(&["rod_asymmetry", "unknown"]);
     assert_eq!(d.verdict, Kind::Effect, "{}", d.words);
     assert_eq!(d.effects[0].id, "rod_asymmetry");
 
-    let made = concealing(None);
-    let (d, _) = diagnosed(made.path(), &["unknown"]);
+    let made = Case::new(&Hidden::Nothing, 5, 6.0);
+    let (d, _) = made.diagnosed(&["unknown"]);
     assert_eq!(d.verdict, Kind::None, "{}", d.words);
     assert!(d.effects.is_empty());
 }

@@ -6,6 +6,7 @@ use super::locate;
 use super::samples::{KINDS, Phase, Sample, Samples};
 use super::search::{self, Form};
 use super::standing::Standing;
+use super::trial::NEAR;
 use super::verdict::{
     Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
 };
@@ -46,6 +47,7 @@ pub(super) fn conclude(
     if 2 * unseen > noticeable.len() {
         kind = Kind::Insufficient;
     }
+    let astray = astray(last);
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
     let alike: Vec<&dyn Effect> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
@@ -75,6 +77,7 @@ pub(super) fn conclude(
             &floor,
             &ids,
             (unseen, noticeable.len()),
+            &astray,
         ),
         effects: named,
         alternatives: alternatives.collect(),
@@ -86,7 +89,7 @@ pub(super) fn conclude(
         explained,
         hidden: hidden(baseline, last),
         noticeable,
-        alarms: [alarms(own, &last.fit.at), worsened].concat(),
+        alarms: [alarms(own, &last.fit.at), astray, worsened].concat(),
         audit: audit(train, holdout),
         loads: None,
         traces: last.scores.traces(&baseline.scores, [train, holdout]),
@@ -144,6 +147,8 @@ fn kind(
         // what is left is noise, however little there was to explain
         _ if explained < EXPLAINED && left >= SOUND => Kind::Unexplained,
         _ if worsens || left > LEFT => Kind::Unexplained,
+        // a cause that must be stronger than it can be stands for another
+        _ if !last.trial.astray(&last.fit.at).is_empty() => Kind::Unexplained,
         // so many, and still not all of it: they imitate something else
         _ if named.len() == MOST && left >= SOUND => Kind::Unexplained,
         // what only describes explains nothing unless it leaves nothing
@@ -272,7 +277,7 @@ fn noticeable(
 /// Numbers at an end of their range, or far from what was known beforehand.
 fn alarms(own: &[Parameter], at: &[f64]) -> Vec<String> {
     let alarm = |(p, value): (&Parameter, &f64)| {
-        let near = |end: f64| (value - end).abs() < 1e-3 * p.width();
+        let near = |end: f64| (value - end).abs() < NEAR * p.width();
         if near(p.range.0) || near(p.range.1) {
             return Some(format!(
                 "{} ended at an end of its range, {value:.4} {}: the range is too narrow, or the number stands for physics \
@@ -290,6 +295,18 @@ fn alarms(own: &[Parameter], at: &[f64]) -> Vec<String> {
         })
     };
     own.iter().zip(at).filter_map(alarm).collect()
+}
+
+/// Numbers of named effects that ended where what is physical ends.
+fn astray(last: &Standing<'_>) -> Vec<String> {
+    let numbers = last.trial.astray(&last.fit.at).into_iter();
+    let alarm = |(q, value): (&Quantity, f64)| {
+        format!(
+            "{} ended where what is physical ends, {value:.4} {}: something that is not known acts much like the effect",
+            q.name, q.unit
+        )
+    };
+    numbers.map(alarm).collect()
 }
 
 fn floor(data: &[Samples]) -> Floor {
@@ -349,6 +366,7 @@ fn sentence(
     floor: &Floor,
     class: &[String],
     (unseen, tried): (usize, usize),
+    astray: &[String],
 ) -> String {
     let words: Vec<&str> = named.iter().map(|n| n.words.as_str()).collect();
     let share = 100.0 * explained;
@@ -380,6 +398,10 @@ fn sentence(
         Kind::Unexplained if named.is_empty() => {
             "There is a mismatch, and none of the known effects explains it.".into()
         }
+        Kind::Unexplained if !astray.is_empty() => format!(
+            "There is a mismatch whose cause is not known. What is known ({all}) would account for {share:.0} % of it, but {}.",
+            astray.join("; ")
+        ),
         Kind::Unexplained => format!(
             "There is a mismatch that is not explained: what is known ({all}) accounts for {share:.0} % of it, and {left:.0} \
              times what noise makes is left."

@@ -208,6 +208,10 @@ impl<'a> Standing<'a> {
         drop_needless(&mut trial, &mut fit, &mut named);
         let (trial, fit) = settled(trial, fit);
         let scenario = trial.scenario(&fit.at).map_err(unfit)?;
+        // what only helps beyond what is physical is not a further cause
+        if named.len() > 1 && !trial.astray(&fit.at).is_empty() {
+            return Ok(None);
+        }
         // a model that can't follow a recording held out is worse there
         let Ok(scores) = Scores::of(&scenario, trial.data, holdout) else {
             return Ok(None);

@@ -107,6 +107,8 @@ pub struct Slopes {
 
 /// Times chi2 that squared residuals are let grow to in a step, before shared errors are taken out.
 const MUCH: f64 = 4.0;
+/// Share of a range within which a value is at its end.
+pub const NEAR: f64 = 1e-3;
 /// Least damping of the steps.
 pub const DAMPING: f64 = 1e-6;
 
@@ -215,6 +217,20 @@ impl<'a> Trial<'a> {
             None => self.own[j].range,
             Some(k) => self.quantity(k).range,
         }
+    }
+
+    /// Numbers of the forms that would go on if what is physical didn't end there, with their values. What is absent at an
+    /// end of its range, or zero there, may well stand there.
+    pub fn astray(&self, at: &[f64]) -> Vec<(&Quantity, f64)> {
+        let quantities = self.forms.iter().flat_map(|form| &form.quantities);
+        let values = at[self.own.len()..].iter().copied();
+        let at_end = |(q, value): &(&Quantity, f64)| {
+            let near = NEAR * (q.range.1 - q.range.0);
+            [q.range.0, q.range.1].iter().any(|end| {
+                (value - end).abs() < near && end.abs() > near && (q.null - end).abs() > near
+            })
+        };
+        quantities.zip(values).filter(at_end).collect()
     }
 
     fn quantity(&self, k: usize) -> &Quantity {

@@ -1,6 +1,7 @@
 //! What several tests share.
 #![allow(dead_code, reason = "each test uses some of it")]
 
+pub mod concealed;
 pub mod made;
 
 use auxetica::config::Source;
