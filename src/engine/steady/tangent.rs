@@ -91,14 +91,18 @@ impl Nudge {
         let by = Vector3::ith(j % 3, STEPS[way]);
         if j < 3 {
             let shift = by * self.scale;
-            let rate = shift * self.rate;
             state.position.set(k, start.position.get(k) + shift);
-            state.velocity.set(k, start.velocity.get(k) + rate);
+            if self.rate != 0.0 {
+                let rate = start.velocity.get(k) + shift * self.rate;
+                state.velocity.set(k, rate);
+            }
         } else {
             let frame = Rows::from(&start.director.get(k));
             let turned = self.turns[way][j - 3].product(&frame);
             state.director.set(k, turned.into());
-            state.omega.set(k, start.omega.get(k) + by * self.rate);
+            if self.rate != 0.0 {
+                state.omega.set(k, start.omega.get(k) + by * self.rate);
+            }
         }
     }
 }
