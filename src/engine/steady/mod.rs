@@ -2,8 +2,10 @@
 //!
 //! A steady state at a time is an equilibrium under that time's loads and boundary values. It is reached from the
 //! present one by continuation: boundary values move, and what was out of balance fades, in as few increments as
-//! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on.
+//! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on, if asked to past
+//! limit points, too (`arc`).
 
+mod arc;
 mod block_lu;
 pub(crate) mod diagnosis;
 mod path;
@@ -29,6 +31,9 @@ pub struct SteadyOptions {
     pub iterations: usize,
     /// Smallest increment before giving up, as a fraction of the way.
     pub smallest_increment: f64,
+    /// Whether to go on past limit points, where there is no equilibrium further along the way nearby: along the path of
+    /// equilibria, back and on again.
+    pub arc_length: bool,
 }
 
 impl Default for SteadyOptions {
@@ -37,6 +42,7 @@ impl Default for SteadyOptions {
             tolerance: 1e-9,
             iterations: 25,
             smallest_increment: 1e-4,
+            arc_length: false,
         }
     }
 }
@@ -87,6 +93,8 @@ const ASTRAY: f64 = 0.04;
 const GOOD: f64 = 0.2;
 /// Factor by which increments may grow at once.
 const FASTEST: f64 = 64.0;
+/// Increment below which the path is taken to turn back, if it may.
+const TURNING: f64 = 0.02;
 /// Share of an increment by which the path's tangent is found.
 const DIFFERENCE: f64 = 1e-4;
 
@@ -231,6 +239,10 @@ impl SteadySolver {
                     // as small as is harmless, since it may stand at a law's kink; it grows fast
                     let harmless = HARMLESS / 2.0 / trial.first;
                     limit = increment / 2.0;
+                    if limit < TURNING && self.options.arc_length {
+                        self.follow(system, &path, done, report)?;
+                        break;
+                    }
                     if limit < smallest {
                         return Err(self.unheld(system).unwrap_or(reason));
                     }
@@ -315,7 +327,8 @@ impl SteadySolver {
             }
         }
         Err("Newton's method didn't converge, however small the increment; follow the load from a smaller one \
-             (ramps, closer times), or settle with the dynamic solver"
+             (ramps, closer times), set `solver.arc_length: true` to go on past a limit point, or settle with the \
+             dynamic solver"
             .into())
     }
 
