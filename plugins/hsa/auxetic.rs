@@ -5,6 +5,7 @@ use auxetica_engine::{Finite, LawView, Moment, NonNegative, ReadBody, RodLaw, Se
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::ops::Range;
 
 /// Which way the rod must be twisted to lengthen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -109,15 +110,15 @@ impl Auxetic {
     }
 
     /// Twist along the handedness of cell `v` [rad/m]: the motor turns the start, so twist and angle are opposite.
-    #[inline]
+    #[inline(always)]
     fn winding(&self, rod: &LawView<'_>, v: usize) -> f64 {
         -self.handedness.sign() * rod.twist(v)
     }
 
     /// The same, zero where there is no cell.
     #[inline]
-    fn winding_or_zero(&self, rod: &LawView<'_>, v: usize) -> f64 {
-        if rod.cells().contains(&v) {
+    fn winding_or_zero(&self, rod: &LawView<'_>, cells: &Range<usize>, v: usize) -> f64 {
+        if cells.contains(&v) {
             self.winding(rod, v)
         } else {
             0.0
@@ -126,8 +127,8 @@ impl Auxetic {
 
     /// Share that element `e` has of the twist of each of its cells that exist.
     #[inline]
-    fn share(&self, rod: &LawView<'_>, e: usize) -> f64 {
-        let whole = rod.cells().contains(&e) && rod.cells().contains(&(e + 1));
+    fn share(&self, cells: &Range<usize>, e: usize) -> f64 {
+        let whole = cells.contains(&e) && cells.contains(&(e + 1));
         match self.averaging {
             Averaging::Mean if !whole => 1.0,
             _ => 0.5,
@@ -136,8 +137,9 @@ impl Auxetic {
 
     /// Winding twist of element `e` for its rest length [rad/m].
     fn of_element(&self, rod: &LawView<'_>, e: usize) -> f64 {
-        let [before, after] = [e, e + 1].map(|v| self.winding_or_zero(rod, v));
-        (before + after) * self.share(rod, e)
+        let cells = rod.cells();
+        let [before, after] = [e, e + 1].map(|v| self.winding_or_zero(rod, &cells, v));
+        (before + after) * self.share(&cells, e)
     }
 
     /// Winding twist of element `e` for its rigidities [rad/m], never negative.
@@ -167,10 +169,11 @@ impl RodLaw for Auxetic {
             twist,
         } = self.slopes;
         let trajectory = self.trajectory();
-        let mut before = self.winding_or_zero(rod, 0);
+        let cells = rod.cells();
+        let mut before = self.winding_or_zero(rod, &cells, 0);
         for e in 0..rod.elements() {
-            let after = self.winding_or_zero(rod, e + 1);
-            let winding = (before + after) * self.share(rod, e);
+            let after = self.winding_or_zero(rod, &cells, e + 1);
+            let winding = (before + after) * self.share(&cells, e);
             before = after;
             let extension = trajectory.extension(winding);
             rod.set_rest_length(e, rod.reference_length(e) * (1.0 + extension));
@@ -200,7 +203,7 @@ impl RodLaw for Auxetic {
             for e in neighbours.into_iter().flatten() {
                 let slope = trajectory.slope(self.of_element(rod, e));
                 // the virtual work of the element's force on its rest length, per turn of the cell
-                let lengthening = slope * self.share(rod, e) * rod.reference_length(e);
+                let lengthening = slope * self.share(&rod.cells(), e) * rod.reference_length(e);
                 couple += lengthening / rod.twist_length(v) * rod.stress(e).z * rod.dilatation(e);
             }
             rod.add_couple(v, Vector3::z() * (share * self.handedness.sign() * couple));

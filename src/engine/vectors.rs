@@ -264,7 +264,7 @@ pub struct Matrices {
 
 impl Matrices {
     /// Matrix `i`.
-    #[inline]
+    #[inline(always)]
     pub fn get(&self, i: usize) -> Matrix3<f64> {
         let [a, b, c] = &self.rows;
         let (a, b, c) = (a.get(i), b.get(i), c.get(i));
@@ -272,7 +272,7 @@ impl Matrices {
     }
 
     /// Replaces matrix `i`.
-    #[inline]
+    #[inline(always)]
     pub fn set(&mut self, i: usize, m: Matrix3<f64>) {
         let [a, b, c] = &mut self.rows;
         a.set(i, Vector3::new(m.m11, m.m12, m.m13));

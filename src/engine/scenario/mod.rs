@@ -197,6 +197,10 @@ pub enum Solver {
         /// Last correction accepted: rotations \[rad\], and displacements in element lengths.
         #[serde(default = "tolerance")]
         tolerance: Positive,
+        /// Whether to go on past limit points, where no state is found further along the loads: back along the path of
+        /// equilibria, and on again.
+        #[serde(default)]
+        arc_length: bool,
     },
 }
 
@@ -205,8 +209,13 @@ impl Solver {
     pub fn steady_options(&self) -> SteadyOptions {
         let defaults = SteadyOptions::default();
         match self {
-            Self::Steady { tolerance, .. } => SteadyOptions {
+            Self::Steady {
+                tolerance,
+                arc_length,
+                ..
+            } => SteadyOptions {
                 tolerance: **tolerance,
+                arc_length: *arc_length,
                 ..defaults
             },
             Self::Dynamic { .. } | Self::Implicit { .. } => defaults,

@@ -1,16 +1,20 @@
 //! LU factors of sparse matrices whose entries are 6x6 blocks, one row and one column of blocks a station.
 //!
 //! Stations are eliminated by least degree: a rod from its ends inwards, what joints gather (platforms) last, so a rod
-//! costs time in proportion to its elements and any topology of joints works. Rows are exchanged within a block only:
+//! costs time in proportion to its elements and any topology of joints works. Columns are exchanged within a pivot only:
 //! the order is found once for a pattern, and every block can be a pivot because it is what holds its station while the
 //! stations after it are held.
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::Matrix6;
+use pulp::{Arch, Simd, WithSimd};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 /// A block's edge.
 const SIZE: usize = 6;
+
+/// A column of a block.
+type Column = [f64; SIZE];
 
 /// A station that a pivot is coupled with and that is eliminated after it.
 struct Neighbour {
@@ -21,7 +25,8 @@ struct Neighbour {
     down: usize,
 }
 
-/// Pattern, blocks and, once factorised, factors `(D + L) (I + U)`, with `D` the pivots.
+/// Pattern, blocks and, once factorised, factors `(D + L) (I + U)`, with the inverses of the pivots `D`: a product takes
+/// less time than a substitution, whose steps wait for each other.
 pub(super) struct BlockLu {
     /// Stations in the order of their elimination.
     order: Vec<usize>,
@@ -32,8 +37,6 @@ pub(super) struct BlockLu {
     updates: Vec<usize>,
     /// The diagonal, station by station, then the others.
     blocks: Vec<Matrix6<f64>>,
-    /// Exchanges of rows within each pivot.
-    exchanges: Vec<[u8; SIZE]>,
 }
 
 impl BlockLu {
@@ -57,7 +60,6 @@ impl BlockLu {
             neighbours: Vec::new(),
             updates: Vec::new(),
             blocks: Vec::new(),
-            exchanges: vec![[0; SIZE]; stations],
         };
         for later in &later {
             for &station in later {
@@ -121,47 +123,68 @@ impl BlockLu {
 
     /// Replaces the matrix by its factors. A singular one gives factors that aren't finite.
     pub(super) fn factorise(&mut self) {
+        let mut blocks = std::mem::take(&mut self.blocks);
         let mut updates = self.updates.iter();
-        for (turn, pivot) in self.order.iter().enumerate() {
-            let neighbours = &self.neighbours[self.starts[turn]..self.starts[turn + 1]];
-            let mut factors = self.blocks[*pivot];
-            self.exchanges[*pivot] = lu(&mut factors);
-            self.blocks[*pivot] = factors;
+        for (pivot, neighbours) in self.pivots() {
+            let inverse = inverse(blocks[pivot].data.0);
+            blocks[pivot].data.0 = inverse;
             for n in neighbours {
-                solve_block(
-                    &factors,
-                    &self.exchanges[*pivot],
-                    &mut self.blocks[n.across],
-                );
+                for column in &mut blocks[n.across].data.0 {
+                    *column = product(&inverse, column);
+                }
             }
             for row in neighbours {
-                let left = self.blocks[row.down];
+                let left = blocks[row.down].data.0;
                 for (column, update) in neighbours.iter().zip(&mut updates) {
-                    let right = self.blocks[column.across];
-                    subtract_product(&mut self.blocks[*update], &left, &right);
+                    let right = blocks[column.across].data.0;
+                    for (c, b) in blocks[*update].data.0.iter_mut().zip(&right) {
+                        subtract(c, &product(&left, b));
+                    }
                 }
             }
         }
+        self.blocks = blocks;
     }
 
     /// Solves in place with the factors; `false` if the result isn't finite (a singular matrix).
     pub(super) fn solve(&self, side: &mut [f64]) -> bool {
-        let at = |station: usize| station * SIZE..(station + 1) * SIZE;
-        for (turn, pivot) in self.order.iter().enumerate() {
-            let mut own = Vector6::from_column_slice(&side[at(*pivot)]);
-            solve_column(&self.blocks[*pivot], &self.exchanges[*pivot], &mut own);
-            side[at(*pivot)].copy_from_slice(own.as_slice());
-            for n in &self.neighbours[self.starts[turn]..self.starts[turn + 1]] {
-                subtract_column(&mut side[at(n.station)], &self.blocks[n.down], &own);
-            }
-        }
-        for (turn, pivot) in self.order.iter().enumerate().rev() {
-            for n in &self.neighbours[self.starts[turn]..self.starts[turn + 1]] {
-                let other = Vector6::from_column_slice(&side[at(n.station)]);
-                subtract_column(&mut side[at(*pivot)], &self.blocks[n.across], &other);
-            }
-        }
+        Arch::new().dispatch(Solve(self, side.as_chunks_mut().0));
         side.iter().all(|v| v.is_finite())
+    }
+
+    /// The pivots in the order of their elimination, and their neighbours.
+    #[inline(always)]
+    fn pivots(&self) -> impl DoubleEndedIterator<Item = (usize, &[Neighbour])> {
+        let ranges = self.starts.windows(2).map(|w| &self.neighbours[w[0]..w[1]]);
+        self.order.iter().copied().zip(ranges)
+    }
+}
+
+/// [`BlockLu::solve`], compiled for the machine's vectors.
+struct Solve<'a>(&'a BlockLu, &'a mut [Column]);
+
+impl WithSimd for Solve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self(lu, side) = self;
+        for (pivot, neighbours) in lu.pivots() {
+            let own = product(&lu.blocks[pivot].data.0, &side[pivot]);
+            side[pivot] = own;
+            for n in neighbours {
+                let down = product(&lu.blocks[n.down].data.0, &own);
+                subtract(&mut side[n.station], &down);
+            }
+        }
+        for (pivot, neighbours) in lu.pivots().rev() {
+            let mut own = side[pivot];
+            for n in neighbours {
+                let across = product(&lu.blocks[n.across].data.0, &side[n.station]);
+                subtract(&mut own, &across);
+            }
+            side[pivot] = own;
+        }
     }
 }
 
@@ -194,101 +217,49 @@ fn eliminate(mut near: Vec<Vec<usize>>) -> (Vec<usize>, Vec<Vec<usize>>) {
     (order, later)
 }
 
-/// LU factors in place, with unit lower diagonal; returns which row each row was exchanged with.
-fn lu(a: &mut Matrix6<f64>) -> [u8; SIZE] {
-    let mut exchanges = [0; SIZE];
-    for j in 0..SIZE {
-        let mut best = j;
-        for i in j + 1..SIZE {
-            if a[(i, j)].abs() > a[(best, j)].abs() {
-                best = i;
+/// Inverse of a block, column by column (Gauss-Jordan). A singular one gives what isn't finite.
+#[inline(always)]
+fn inverse(mut a: [Column; SIZE]) -> [Column; SIZE] {
+    let mut b = Matrix6::identity().data.0;
+    for k in 0..SIZE {
+        let mut best = k;
+        for j in k + 1..SIZE {
+            if a[j][k].abs() > a[best][k].abs() {
+                best = j;
             }
         }
-        exchanges[j] = best as u8;
-        a.swap_rows(j, best);
-        let inverse = 1.0 / a[(j, j)];
-        for i in j + 1..SIZE {
-            a[(i, j)] *= inverse;
+        let pivot = 1.0 / a[best][k];
+        for side in [&mut a, &mut b] {
+            side.swap(k, best);
+            side[k] = side[k].map(|v| v * pivot);
         }
-        for k in j + 1..SIZE {
-            let factor = a[(j, k)];
-            for i in j + 1..SIZE {
-                a[(i, k)] -= a[(i, j)] * factor;
-            }
+        let pivots = (a[k], b[k]);
+        for j in (0..SIZE).filter(|j| *j != k) {
+            let factor = a[j][k];
+            subtract(&mut a[j], &pivots.0.map(|v| v * factor));
+            subtract(&mut b[j], &pivots.1.map(|v| v * factor));
         }
     }
-    exchanges
+    b
 }
 
-/// Solves for one column with the factors of [`lu`].
-#[inline]
-fn solve_column(lu: &Matrix6<f64>, exchanges: &[u8; SIZE], x: &mut Vector6<f64>) {
-    for (j, other) in exchanges.iter().enumerate() {
-        x.swap_rows(j, usize::from(*other));
-    }
-    for j in 0..SIZE {
-        for i in j + 1..SIZE {
-            x[i] -= lu[(i, j)] * x[j];
+/// A block times a column.
+#[inline(always)]
+fn product(a: &[Column; SIZE], x: &Column) -> Column {
+    let mut y = [0.0; SIZE];
+    for (a, x) in a.iter().zip(x) {
+        for i in 0..SIZE {
+            y[i] += a[i] * x;
         }
     }
-    for j in (0..SIZE).rev() {
-        x[j] /= lu[(j, j)];
-        for i in 0..j {
-            x[i] -= lu[(i, j)] * x[j];
-        }
-    }
+    y
 }
 
-/// Solves for the columns of a block.
-fn solve_block(lu: &Matrix6<f64>, exchanges: &[u8; SIZE], block: &mut Matrix6<f64>) {
-    // transposed, so that the inner loops run over all columns at once
-    let mut x = block.transpose();
-    for (j, other) in exchanges.iter().enumerate() {
-        x.swap_columns(j, usize::from(*other));
-    }
-    let subtract = |x: &mut Matrix6<f64>, i: usize, j: usize| {
-        let factor = lu[(i, j)];
-        for c in 0..SIZE {
-            x[(c, i)] -= factor * x[(c, j)];
-        }
-    };
-    for j in 0..SIZE {
-        for i in j + 1..SIZE {
-            subtract(&mut x, i, j);
-        }
-    }
-    for j in (0..SIZE).rev() {
-        let inverse = 1.0 / lu[(j, j)];
-        for c in 0..SIZE {
-            x[(c, j)] *= inverse;
-        }
-        for i in 0..j {
-            subtract(&mut x, i, j);
-        }
-    }
-    *block = x.transpose();
-}
-
-/// `c -= a b`.
-#[inline]
-fn subtract_product(c: &mut Matrix6<f64>, a: &Matrix6<f64>, b: &Matrix6<f64>) {
-    for j in 0..SIZE {
-        for k in 0..SIZE {
-            let factor = b[(k, j)];
-            for i in 0..SIZE {
-                c[(i, j)] -= a[(i, k)] * factor;
-            }
-        }
-    }
-}
-
-/// `y -= a x`.
-#[inline]
-fn subtract_column(y: &mut [f64], a: &Matrix6<f64>, x: &Vector6<f64>) {
-    for j in 0..SIZE {
-        for (i, y) in y.iter_mut().enumerate() {
-            *y -= a[(i, j)] * x[j];
-        }
+/// `y -= x`.
+#[inline(always)]
+fn subtract(y: &mut Column, x: &Column) {
+    for i in 0..SIZE {
+        y[i] -= x[i];
     }
 }
 

@@ -2,8 +2,10 @@
 //!
 //! A steady state at a time is an equilibrium under that time's loads and boundary values. It is reached from the
 //! present one by continuation: boundary values move, and what was out of balance fades, in as few increments as
-//! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on.
+//! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on, if asked to past
+//! limit points, too (`arc`).
 
+mod arc;
 mod block_lu;
 pub(crate) mod diagnosis;
 mod path;
@@ -29,6 +31,9 @@ pub struct SteadyOptions {
     pub iterations: usize,
     /// Smallest increment before giving up, as a fraction of the way.
     pub smallest_increment: f64,
+    /// Whether to go on past limit points, where there is no equilibrium further along the way nearby: along the path of
+    /// equilibria, back and on again.
+    pub arc_length: bool,
 }
 
 impl Default for SteadyOptions {
@@ -37,6 +42,7 @@ impl Default for SteadyOptions {
             tolerance: 1e-9,
             iterations: 25,
             smallest_increment: 1e-4,
+            arc_length: false,
         }
     }
 }
@@ -72,18 +78,23 @@ const LARGEST_TURN: f64 = 1.0;
 const CONTRACTION: f64 = 0.5;
 /// Corrections below this stay on the branch, whatever their ratio: a law's kink may cost one that doesn't shrink.
 const HARMLESS: f64 = 0.02;
-/// Factor by which corrections must shrink for the tangent of an earlier state to be kept, so that they are small enough
-/// before iterations run out.
-const REUSE: f64 = 0.4;
+/// Iterations that take as long as finding a tangent: one of an earlier state is kept if it promises to end in as many.
+const WORTH: usize = 18;
 /// Share of the tolerance that the last correction must stay below if it is that of an earlier state's tangent.
 const REMAINDER: f64 = 0.01;
 /// How far stations may move for a tangent to be kept.
 const NEAR: f64 = 0.1;
 
+/// Motion that shows whether the tangent is that of the path beyond: so small that only a kink leaves much to correct.
+const GLIMPSE: f64 = 1e-5;
+/// Correction that is left after it, as a share of it, at a kink.
+const ASTRAY: f64 = 0.04;
 /// Second correction, as a share of the first, that increments are made for: it grows with the increment.
 const GOOD: f64 = 0.2;
 /// Factor by which increments may grow at once.
 const FASTEST: f64 = 64.0;
+/// Increment below which the path is taken to turn back, if it may.
+const TURNING: f64 = 0.02;
 /// Share of an increment by which the path's tangent is found.
 const DIFFERENCE: f64 = 1e-4;
 
@@ -104,6 +115,8 @@ struct Trial {
     first: f64,
     /// Motion of the second correction as a share of it.
     ratio: f64,
+    /// Whether stations have moved.
+    begun: bool,
 }
 
 /// Finds and follows steady states of one system.
@@ -166,6 +179,7 @@ impl SteadySolver {
             }
             if let Err(reason) = self.increments(system, to, &mut report) {
                 start.set(system);
+                self.moved = None;
                 system.time = start_time;
                 return Err(NotSteady { time: to, reason });
             }
@@ -190,6 +204,8 @@ impl SteadySolver {
         let path = Path::new(system, target, self.loads.clone(), &self.unknowns);
         let smallest = self.options.smallest_increment;
         let (mut done, mut increment, mut limit) = (0.0, 1.0_f64, 1.0_f64);
+        // whether the last increment has shown a kink where it begins
+        let mut kink = false;
         while done < 1.0 {
             let good = Poses::of(system);
             increment = increment.min(limit).min(1.0 - done);
@@ -205,15 +221,28 @@ impl SteadySolver {
                     done = to;
                     limit = limit.max(2.0 * increment);
                     // never less than what is given up at, or the end is never reached
-                    let factor = (GOOD / trial.ratio).clamp(0.5, FASTEST);
+                    let factor = if std::mem::take(&mut kink) {
+                        // neither the tangent there nor how well it did tells anything of the path beyond
+                        self.moved = None;
+                        FASTEST
+                    } else {
+                        (GOOD / trial.ratio).clamp(0.5, FASTEST)
+                    };
                     increment = (increment * factor).max(smallest);
                 }
                 Err(reason) => {
                     good.set(system);
-                    self.moved = None;
+                    kink = !trial.begun;
+                    if trial.begun {
+                        self.moved = None;
+                    }
                     // as small as is harmless, since it may stand at a law's kink; it grows fast
                     let harmless = HARMLESS / 2.0 / trial.first;
                     limit = increment / 2.0;
+                    if limit < TURNING && self.options.arc_length {
+                        self.follow(system, &path, done, report)?;
+                        break;
+                    }
                     if limit < smallest {
                         return Err(self.unheld(system).unwrap_or(reason));
                     }
@@ -258,9 +287,20 @@ impl SteadySolver {
                 self.factorise(system, report)?;
             }
             let mut size = self.correction(path, ahead, to)?;
-            if size.motion > REUSE * last && self.moved > Some(0.0) {
+            let outworn = if iteration == 1 {
+                size.motion > HARMLESS && self.strays(system, path, (from, to), &size, report)?
+            } else {
+                // whether what shrinks like this is still too large when a new tangent would have brought it to an end
+                let left = WORTH.min(self.options.iterations - iteration);
+                let shrunk = (size.motion / last).powi(left as i32);
+                shrunk * size.motion > self.options.tolerance * REMAINDER
+            };
+            if outworn && self.moved > Some(0.0) {
                 self.factorise(system, report)?;
                 size = self.correction(path, ahead, to)?;
+            } else if outworn && iteration == 1 {
+                trial.first = size.motion;
+                break;
             }
             if iteration == 1 {
                 path.turn_walls(system, to);
@@ -280,14 +320,39 @@ impl SteadySolver {
                 false => self.options.tolerance,
             };
             self.unknowns.displace_all(&mut system.groups, &self.change);
+            trial.begun = true;
             self.moved = self.moved.map(|moved| moved + size.motion);
             if size.largest < accepted {
                 return Ok(());
             }
         }
         Err("Newton's method didn't converge, however small the increment; follow the load from a smaller one \
-             (ramps, closer times), or settle with the dynamic solver"
+             (ramps, closer times), set `solver.arc_length: true` to go on past a limit point, or settle with the \
+             dynamic solver"
             .into())
+    }
+
+    /// Whether already a glimpse of the first correction leaves much to correct. Poses, loads and the correction stay.
+    fn strays(
+        &mut self,
+        system: &mut System,
+        path: &Path,
+        (from, to): (f64, f64),
+        first: &Size,
+        report: &mut SteadyReport,
+    ) -> Result<bool, String> {
+        let share = GLIMPSE / first.motion;
+        let there = from + share * (to - from);
+        let here = Poses::of(system);
+        let kept = (self.change.clone(), self.loads.clone());
+        self.change.iter_mut().for_each(|change| *change *= share);
+        self.unknowns.displace_all(&mut system.groups, &self.change);
+        path.turn_walls(system, there);
+        self.find_imbalance(system, report);
+        let second = self.correction(path, 0.0, there);
+        here.set(system);
+        (self.change, self.loads) = kept;
+        Ok(second?.motion > ASTRAY * GLIMPSE)
     }
 
     /// Solves for the displacements of all stations towards equilibrium at the share `to` of the path, of which held
@@ -301,14 +366,18 @@ impl SteadySolver {
                         boundary condition or a joint"
                 .into());
         }
+        Ok(self.size(&self.change))
+    }
+
+    fn size(&self, change: &[f64]) -> Size {
         let mut size = Size::default();
-        for station in self.change.chunks_exact(PER_STATION) {
+        for station in change.chunks_exact(PER_STATION) {
             let [shift, turn] = [&station[..3], &station[3..]]
                 .map(|part| part.iter().fold(0.0_f64, |m, v| m.max(v.abs())));
             size.largest = size.largest.max(shift).max(turn);
             size.motion = size.motion.max(shift / self.unknowns.longest).max(turn);
         }
-        Ok(size)
+        size
     }
 
     /// The tangent matrix of the present state and its factors.

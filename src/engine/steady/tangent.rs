@@ -4,16 +4,21 @@
 //! (colouring); joints are differentiated one by one. How far the dependence reaches is tested, not assumed.
 
 use super::block_lu::BlockLu;
-use super::unknowns::{Freedom, PER_STATION, Unknowns};
+use super::unknowns::{Freedom, PER_STATION, Reach, Unknowns};
+use crate::bodies::State;
 use crate::group::Group;
 use crate::inputs::Moment;
+use crate::lanes::Rows;
 use crate::rotation;
 use crate::system::System;
-use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
+use std::ops::Range;
 
 /// Step of the central differences, in the unknowns' own unit. Forward ones would be too coarse for slender stiff rods:
 /// their error, of the axial rigidity times the step, exceeds the bending stiffness.
 const DIFFERENCE: f64 = 1e-5;
+/// Forth and back.
+const STEPS: [f64; 2] = [DIFFERENCE, -DIFFERENCE];
 
 /// A 6x6 block of the matrix, by stations, and its place in the factors.
 struct Block {
@@ -22,33 +27,39 @@ struct Block {
     slot: usize,
 }
 
-/// Stations of bodies that are moved at once.
+/// The unknowns of a station that are of position, and of rotation.
+const KINDS: [Range<usize>; 2] = [0..3, 3..PER_STATION];
+
+/// Stations of bodies that are moved, or turned, at once.
 struct Colour {
+    unknowns: Range<usize>,
     /// Groups and stations in them.
     stations: Vec<(usize, usize)>,
     /// Blocks of these columns.
-    blocks: std::ops::Range<usize>,
+    blocks: Vec<usize>,
+}
+
+/// A station that a joint depends and acts on.
+struct Joined {
+    station: usize,
+    /// Those that the joint depends on.
+    unknowns: Range<usize>,
 }
 
 /// The sparse tangent matrix: pattern, values, and how to fill and factorise it.
 pub(crate) struct Tangent {
     colours: Vec<Colour>,
-    /// Bodies' blocks colour by colour, then joints' blocks column by column.
+    /// Column by column: blocks of bodies, then those of joints.
     blocks: Vec<Block>,
     values: Vec<Matrix6<f64>>,
-    /// Stations that each joint depends and acts on.
-    joints: Vec<Vec<usize>>,
+    /// Blocks of bodies.
+    bodies: usize,
+    joints: Vec<Vec<Joined>>,
     factors: BlockLu,
-    forth: Vec<f64>,
-    back: Vec<f64>,
-}
-
-/// One station before it was moved.
-struct Place {
-    position: Vector3<f64>,
-    velocity: Vector3<f64>,
-    frame: Matrix3<f64>,
-    omega: Vector3<f64>,
+    /// States that are differentiated at, one a group.
+    start: Vec<State>,
+    /// Loads after moves forth and back.
+    loads: [Vec<f64>; 2],
 }
 
 /// How far stations are moved.
@@ -57,74 +68,100 @@ struct Nudge {
     scale: f64,
     /// Change of a station's rates for a unit change of its pose \[1/s\].
     rate: f64,
-    /// Rotations by [`DIFFERENCE`].
-    turns: [Matrix3<f64>; 3],
+    /// Rotations of frames by each of [`STEPS`] about each director.
+    turns: [[Rows; 3]; 2],
 }
 
-impl Place {
-    /// Moves a station by one of its unknowns and returns where it was.
-    fn moved(group: &mut Group, k: usize, (j, sign): (usize, f64), nudge: &Nudge) -> Self {
-        let state = &mut group.bodies.state;
-        let place = Self {
-            position: state.position.get(k),
-            velocity: state.velocity.get(k),
-            frame: state.director.get(k),
-            omega: state.omega.get(k),
+impl Nudge {
+    fn new(scale: f64, rate: f64) -> Self {
+        let turn = |by: f64| {
+            [Vector3::x(), Vector3::y(), Vector3::z()]
+                .map(|axis| Rows::from(&rotation::exp(&(axis * -by))))
         };
-        let by = Vector3::ith(j % 3, sign * DIFFERENCE);
-        if j < 3 {
-            let shift = by * nudge.scale;
-            state.position.set(k, place.position + shift);
-            state.velocity.set(k, place.velocity + shift * nudge.rate);
-        } else {
-            let turn = &nudge.turns[j - 3];
-            let frame = if sign > 0.0 {
-                turn * place.frame
-            } else {
-                turn.tr_mul(&place.frame)
-            };
-            state.director.set(k, frame);
-            state.omega.set(k, place.omega + by * nudge.rate);
+        Self {
+            scale,
+            rate,
+            turns: STEPS.map(turn),
         }
-        place
     }
 
-    fn restore(&self, group: &mut Group, k: usize) {
-        let state = &mut group.bodies.state;
-        state.position.set(k, self.position);
-        state.velocity.set(k, self.velocity);
-        state.director.set(k, self.frame);
-        state.omega.set(k, self.omega);
+    /// Moves unknown `j` of a station by one of [`STEPS`] from where it was at the start.
+    #[inline]
+    fn set(&self, state: &mut State, start: &State, k: usize, (j, way): (usize, usize)) {
+        let by = Vector3::ith(j % 3, STEPS[way]);
+        if j < 3 {
+            let shift = by * self.scale;
+            state.position.set(k, start.position.get(k) + shift);
+            if self.rate != 0.0 {
+                let rate = start.velocity.get(k) + shift * self.rate;
+                state.velocity.set(k, rate);
+            }
+        } else {
+            let frame = Rows::from(&start.director.get(k));
+            let turned = self.turns[way][j - 3].product(&frame);
+            state.director.set(k, turned.into());
+            if self.rate != 0.0 {
+                state.omega.set(k, start.omega.get(k) + by * self.rate);
+            }
+        }
+    }
+}
+
+/// Moves unknown `j` of a station back to where it was at the start.
+#[inline]
+fn reset(state: &mut State, start: &State, k: usize, j: usize) {
+    if j < 3 {
+        state.position.set(k, start.position.get(k));
+        state.velocity.set(k, start.velocity.get(k));
+    } else {
+        state.director.set(k, start.director.get(k));
+        state.omega.set(k, start.omega.get(k));
     }
 }
 
 impl Tangent {
-    /// The pattern for loads that depend on `reach` neighbours to each side.
-    pub(crate) fn new(system: &System, unknowns: &Unknowns, reach: usize) -> Self {
-        let spacing = 2 * reach + 1;
-        let mut colours = Vec::new();
+    /// The pattern for loads that positions and frames have this reach for.
+    pub(crate) fn new(system: &System, unknowns: &Unknowns, reach: [Reach; 2]) -> Self {
+        let bodies = || {
+            let groups = system.groups.iter().enumerate();
+            groups.flat_map(|(g, group)| group.bodies.layouts().iter().map(move |l| (g, l)))
+        };
+        let either = reach[0].or(reach[1]);
         let mut pattern = Vec::new();
-        for colour in 0..spacing {
-            let (mut stations, first) = (Vec::new(), pattern.len());
-            for (g, group) in system.groups.iter().enumerate() {
-                for layout in group.bodies.layouts() {
-                    for i in (colour..layout.nodes()).step_by(spacing) {
-                        let column = unknowns.global(g, layout.first + i);
-                        let rows = i.saturating_sub(reach)..(i + reach + 1).min(layout.nodes());
-                        pattern.extend(rows.map(|row| (column - i + row, column)));
+        // where a column's blocks start, and in which row
+        let mut columns = Vec::new();
+        for (g, layout) in bodies() {
+            let first = unknowns.global(g, layout.first);
+            for i in 0..layout.nodes() {
+                let rows = either.around(i, layout.nodes());
+                columns.push((pattern.len(), rows.start));
+                pattern.extend(rows.map(|row| (first + row, first + i)));
+            }
+        }
+        let mut colours = Vec::new();
+        for (kind, reach) in KINDS.into_iter().zip(reach) {
+            for colour in 0..reach.spacing() {
+                let (mut stations, mut blocks) = (Vec::new(), Vec::new());
+                for (g, layout) in bodies() {
+                    for i in (colour..layout.nodes()).step_by(reach.spacing()) {
+                        let (block, first_row) = columns[unknowns.global(g, layout.first + i)];
+                        let rows = reach.around(i, layout.nodes());
+                        blocks.extend(rows.map(|row| block + row - first_row));
                         stations.push((g, layout.first + i));
                     }
                 }
+                colours.push(Colour {
+                    unknowns: kind.clone(),
+                    stations,
+                    blocks,
+                });
             }
-            colours.push(Colour {
-                stations,
-                blocks: first..pattern.len(),
-            });
         }
-        let joints = joint_stations(system, unknowns);
-        for stations in &joints {
-            for column in stations {
-                pattern.extend(stations.iter().map(|row| (*row, *column)));
+        let bodies = pattern.len();
+        let joints = joined(system, unknowns);
+        for joined in &joints {
+            for column in joined {
+                pattern.extend(joined.iter().map(|row| (row.station, column.station)));
             }
         }
         let factors = BlockLu::new(unknowns.stations, pattern.iter().copied());
@@ -137,16 +174,22 @@ impl Tangent {
             blocks: blocks
                 .map(|((row, column), slot)| Block { row, column, slot })
                 .collect(),
+            bodies,
             joints,
             factors,
-            forth: vec![0.0; size],
-            back: vec![0.0; size],
+            start: system
+                .groups
+                .iter()
+                .map(|g| g.bodies.state.clone())
+                .collect(),
+            loads: [vec![0.0; size], vec![0.0; size]],
         }
     }
 
     /// Evaluations of all bodies' loads that [`Tangent::fill`] takes.
     pub(crate) fn evaluations(&self) -> usize {
-        2 * PER_STATION * self.colours.len()
+        let one_way: usize = self.colours.iter().map(|c| c.unknowns.len()).sum();
+        2 * one_way
     }
 
     /// Differentiates what `loads` finds of a group, and joints, at the present state. A station's rates change by `rate`
@@ -158,12 +201,10 @@ impl Tangent {
         loads: impl Fn(&mut Group, &Moment<'_>) + Send + Sync,
         rate: f64,
     ) {
-        let nudge = Nudge {
-            scale: unknowns.scale,
-            rate,
-            turns: [Vector3::x(), Vector3::y(), Vector3::z()]
-                .map(|axis| rotation::turned(&Matrix3::identity(), &(axis * DIFFERENCE))),
-        };
+        for (start, group) in self.start.iter_mut().zip(&system.groups) {
+            start.pose_as(&group.bodies.state);
+        }
+        let nudge = Nudge::new(unknowns.scale, rate);
         self.fill_bodies(system, unknowns, loads, &nudge);
         self.fill_joints(system, unknowns, &nudge);
     }
@@ -185,31 +226,25 @@ impl Tangent {
             time: *time,
             inputs,
         };
-        let mut places = Vec::new();
+        let start = &self.start;
         for colour in &self.colours {
-            for j in 0..PER_STATION {
-                for (sign, loads) in [(1.0, &mut self.forth), (-1.0, &mut self.back)] {
-                    places.clear();
-                    let stations = colour.stations.iter();
-                    places.extend(
-                        stations.map(|(g, k)| Place::moved(&mut groups[*g], *k, (j, sign), nudge)),
-                    );
-                    crate::group::each(groups, |group| find_loads(group, &now));
-                    for (place, (g, k)) in places.iter().zip(&colour.stations) {
-                        place.restore(&mut groups[*g], *k);
+            for j in colour.unknowns.clone() {
+                for (way, loads) in self.loads.iter_mut().enumerate() {
+                    for &(g, k) in &colour.stations {
+                        nudge.set(&mut groups[g].bodies.state, &start[g], k, (j, way));
                     }
+                    crate::group::each(groups, |group| find_loads(group, &now));
                     unknowns.read_loads(groups, loads);
                 }
-                let blocks = colour.blocks.clone();
-                for (block, value) in self.blocks[blocks.clone()]
-                    .iter()
-                    .zip(&mut self.values[blocks])
-                {
-                    let at = block.row * PER_STATION;
-                    for i in 0..PER_STATION {
-                        let change = self.forth[at + i] - self.back[at + i];
-                        value[(i, j)] = change / (2.0 * DIFFERENCE);
-                    }
+                for &(g, k) in &colour.stations {
+                    reset(&mut groups[g].bodies.state, &start[g], k, j);
+                }
+                let [forth, back] = self.loads.each_ref().map(|l| l.as_chunks().0);
+                for block in &colour.blocks {
+                    let row = self.blocks[*block].row;
+                    let [forth, back] = [forth, back].map(|loads| Vector6::from(loads[row]));
+                    let slope = (forth - back) * (0.5 / DIFFERENCE);
+                    self.values[*block].set_column(j, &slope);
                 }
             }
         }
@@ -227,20 +262,20 @@ impl Tangent {
             time: *time,
             inputs,
         };
-        let mut first = self.colours.last().map_or(0, |c| c.blocks.end);
+        let mut first = self.bodies;
         self.values[first..].fill(Matrix6::zeros());
-        for (joint, stations) in joints.iter().zip(&self.joints) {
-            for column in stations {
-                let (g, k) = unknowns.locate(*column);
-                let values = &mut self.values[first..first + stations.len()];
-                for j in 0..PER_STATION {
-                    for sign in [1.0, -1.0] {
-                        let place = Place::moved(&mut groups[g], k, (j, sign), nudge);
-                        let share = sign / (2.0 * DIFFERENCE);
+        for (joint, joined) in joints.iter().zip(&self.joints) {
+            for column in joined {
+                let (g, k) = unknowns.locate(column.station);
+                let values = &mut self.values[first..first + joined.len()];
+                for j in column.unknowns.clone() {
+                    for (way, step) in STEPS.into_iter().enumerate() {
+                        nudge.set(&mut groups[g].bodies.state, &self.start[g], k, (j, way));
+                        let share = 0.5 / step;
                         for side in joint.applied(groups, &now) {
                             let row = |k: usize| {
                                 let station = unknowns.global(side.group, k);
-                                stations.iter().position(|s| *s == station)
+                                joined.iter().position(|j| j.station == station)
                             };
                             if let (Some(node), Some(element)) = (row(side.node), row(side.element))
                             {
@@ -250,18 +285,17 @@ impl Tangent {
                                 torque += side.torque * share;
                             }
                         }
-                        place.restore(&mut groups[g], k);
                     }
+                    reset(&mut groups[g].bodies.state, &self.start[g], k, j);
                 }
-                first += stations.len();
+                first += joined.len();
             }
         }
     }
 
     /// Takes `inertia` times the acceleration from the loads: one number an unknown, times `rate` \[1/s2\].
     pub(crate) fn subtract_inertia(&mut self, inertia: &[f64], rate: f64) {
-        let bodies = self.colours.last().map_or(0, |c| c.blocks.end);
-        for (block, value) in self.blocks.iter().zip(&mut self.values).take(bodies) {
+        for (block, value) in self.blocks.iter().zip(&mut self.values).take(self.bodies) {
             if block.row == block.column {
                 for i in 0..PER_STATION {
                     value[(i, i)] -= inertia[block.row * PER_STATION + i] * rate;
@@ -280,8 +314,13 @@ impl Tangent {
 
     /// A station whose loads' derivatives aren't finite numbers.
     pub(crate) fn not_finite(&self) -> Option<usize> {
+        // a sum is enough, column by column: an infinity or a NaN survives it
+        let zeros = |value: &Matrix6<f64>| {
+            let sum = |sum: Vector6<f64>, column| sum + column * 0.0;
+            value.column_iter().fold(Vector6::zeros(), sum)
+        };
         let mut blocks = self.blocks.iter().zip(&self.values);
-        let bad = blocks.find(|(_, value)| !value.iter().all(|v| v.is_finite()));
+        let bad = blocks.find(|(_, value)| zeros(value) != Vector6::zeros());
         bad.map(|(block, _)| block.row)
     }
 
@@ -325,20 +364,27 @@ impl Tangent {
     }
 }
 
-fn joint_stations(system: &System, unknowns: &Unknowns) -> Vec<Vec<usize>> {
+/// What each joint depends and acts on: positions of nodes, frames of elements.
+fn joined(system: &System, unknowns: &Unknowns) -> Vec<Vec<Joined>> {
     let now = Moment {
         time: system.time,
         inputs: &system.inputs,
     };
-    let stations = |joint: &crate::connection::Connection| {
-        let mut stations: Vec<usize> = joint
-            .applied(&system.groups, &now)
-            .iter()
-            .flat_map(|s| [s.node, s.element].map(|k| unknowns.global(s.group, k)))
-            .collect();
-        stations.sort_unstable();
-        stations.dedup();
-        stations
+    let joined = |joint: &crate::connection::Connection| {
+        let mut joined: Vec<Joined> = Vec::new();
+        for side in joint.applied(&system.groups, &now) {
+            for (k, kind) in [side.node, side.element].into_iter().zip(KINDS) {
+                let station = unknowns.global(side.group, k);
+                match joined.iter_mut().find(|j| j.station == station) {
+                    Some(other) => other.unknowns = 0..PER_STATION,
+                    None => joined.push(Joined {
+                        station,
+                        unknowns: kind,
+                    }),
+                }
+            }
+        }
+        joined
     };
-    system.joints.iter().map(stations).collect()
+    system.joints.iter().map(joined).collect()
 }

@@ -5,6 +5,7 @@ use crate::group::Group;
 use crate::rotation;
 use crate::system::System;
 use nalgebra::{Matrix6, Vector3, Vector6};
+use std::ops::Range;
 
 /// Unknowns a station: displacement over the length scale, and material rotation vector.
 pub(crate) const PER_STATION: usize = 6;
@@ -22,6 +23,33 @@ pub(crate) struct Unknowns {
     pub(crate) scale: f64,
     /// Elements of the longest rod, at least 1.
     pub(crate) longest: f64,
+}
+
+/// How many stations before and after one the loads depend on it.
+#[derive(Clone, Copy)]
+pub(crate) struct Reach {
+    before: usize,
+    after: usize,
+}
+
+impl Reach {
+    /// As far as either.
+    pub(crate) fn or(self, other: Self) -> Self {
+        Self {
+            before: self.before.max(other.before),
+            after: self.after.max(other.after),
+        }
+    }
+
+    /// Those of a body's `nodes` stations that station `i` is felt at.
+    pub(crate) fn around(self, i: usize, nodes: usize) -> Range<usize> {
+        i.saturating_sub(self.before)..(i + self.after + 1).min(nodes)
+    }
+
+    /// Distance of stations that no load depends on two of.
+    pub(crate) fn spacing(self) -> usize {
+        self.before + 1 + self.after
+    }
 }
 
 impl Unknowns {
@@ -76,11 +104,14 @@ impl Unknowns {
     /// Present loads, scaled: force times length, and torque.
     pub(crate) fn read_loads(&self, groups: &[Group], loads: &mut [f64]) {
         for (group, first) in groups.iter().zip(&self.offsets) {
-            let Bodies { force, torque, .. } = &group.bodies;
-            for k in 0..group.bodies.stations() {
-                let at = (first + k) * PER_STATION;
-                loads[at..at + 3].copy_from_slice((force.get(k) * self.scale).as_slice());
-                loads[at + 3..at + 6].copy_from_slice(torque.get(k).as_slice());
+            let count = group.bodies.stations();
+            let loads = loads.as_chunks_mut::<PER_STATION>().0[*first..][..count].iter_mut();
+            let [x, y, z] = group.bodies.force.slices(0..count);
+            let [a, b, c] = group.bodies.torque.slices(0..count);
+            // of one length each, so that nothing is checked station by station
+            for (k, load) in loads.enumerate() {
+                let force = [x[k], y[k], z[k]].map(|f| f * self.scale);
+                *load = [force[0], force[1], force[2], a[k], b[k], c[k]];
             }
         }
     }
@@ -95,13 +126,22 @@ impl Unknowns {
         }
     }
 
-    /// How many stations away the loads on a body change when one of its stations moves, over all bodies.
-    pub(crate) fn reach(&self, system: &mut System) -> usize {
+    /// How far the loads on a body change when one of its stations moves, and when it turns, over all bodies.
+    pub(crate) fn reach(&self, system: &mut System) -> [Reach; 2] {
+        let shift = Vector6::new(3e-3, -2e-3, 1e-3, 0.0, 0.0, 0.0);
+        let turn = Vector6::new(0.0, 0.0, 0.0, 2e-3, 3e-3, -4e-3);
+        [shift, turn].map(|by| self.reach_of(system, by))
+    }
+
+    fn reach_of(&self, system: &mut System, by: Vector6<f64>) -> Reach {
         let now = crate::inputs::Moment {
             time: system.time,
             inputs: &system.inputs,
         };
-        let mut reach = 1;
+        let mut reach = Reach {
+            before: 1,
+            after: 1,
+        };
         for group in &mut system.groups {
             let start = group.bodies.state.clone();
             self.crumple(&mut group.bodies);
@@ -110,8 +150,7 @@ impl Unknowns {
             let base = (group.bodies.force.clone(), group.bodies.torque.clone());
             for sample in 0..3 {
                 // both ways, since a law may act one way only
-                for sign in [1.0, -1.0] {
-                    let by = Vector6::new(3e-3, -2e-3, 1e-3, 2e-3, 3e-3, -4e-3) * sign;
+                for by in [by, -by] {
                     let moved = |l: &crate::bodies::Layout| l.elements * sample / 2;
                     for b in 0..group.bodies.layouts().len() {
                         let layout = &group.bodies.layouts()[b];
@@ -124,7 +163,8 @@ impl Unknowns {
                         for i in 0..layout.nodes() {
                             let k = layout.first + i;
                             if force.get(k) != base.0.get(k) || torque.get(k) != base.1.get(k) {
-                                reach = reach.max(i.abs_diff(moved(layout)));
+                                reach.before = reach.before.max(moved(layout).saturating_sub(i));
+                                reach.after = reach.after.max(i.saturating_sub(moved(layout)));
                             }
                         }
                     }
