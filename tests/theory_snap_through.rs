@@ -12,7 +12,7 @@ const RIGIDITY: f64 = 1e3;
 
 /// One of two bars that meet at the apex, the mirror image of the other, and its share of the load, which reaches `load`
 /// at time 1 and is gone at time 2.
-fn truss(load: f64, arc_length: bool) -> (Model, SteadySolver) {
+fn truss(load: f64, branch: &str) -> (Model, SteadySolver) {
     let length = SPAN.hypot(HEIGHT);
     let mut model = model(&format!(
         r#"(
@@ -29,7 +29,7 @@ fn truss(load: f64, arc_length: bool) -> (Model, SteadySolver) {
             forcing: [(apply: EndForce(
                 force: (0, 0, -1), scale: Table([(0, 0), (1, {load:?}), (2, 0)]),
             ))],
-            solver: Steady(arc_length: {arc_length}),
+            solver: Steady(branch: {branch}),
         )"#
     ));
     let options = model.solver.steady_options();
@@ -48,16 +48,16 @@ fn a_shallow_truss_snaps_through_to_its_other_side() {
     let heights = (0..100_000).map(|i| HEIGHT * f64::from(i) / 1e5);
     let limit = heights.map(load).fold(0.0, f64::max);
 
-    let (mut below, mut solver) = truss(0.999 * limit, false);
+    let (mut below, mut solver) = truss(0.999 * limit, "Followed");
     solver.advance(&mut below.system, 1.0).unwrap();
     assert!(tip(&below, "bar").z > 0.5 * HEIGHT);
 
-    let (mut stuck, mut solver) = truss(1.001 * limit, false);
+    let (mut stuck, mut solver) = truss(1.001 * limit, "Followed");
     let error = solver.advance(&mut stuck.system, 1.0).unwrap_err();
-    assert!(error.to_string().contains("arc_length"), "{error}");
+    assert!(error.to_string().contains("PastLimits"), "{error}");
 
-    for share in [1.001, 1.5] {
-        let (mut truss, mut solver) = truss(share * limit, true);
+    for (share, branch) in [(1.001, "PastLimits"), (1.5, "PastLimits"), (1.5, "Stable")] {
+        let (mut truss, mut solver) = truss(share * limit, branch);
         let report = solver.advance(&mut truss.system, 1.0).unwrap();
         let height = tip(&truss, "bar").z;
         let off = load(height) / (share * limit) - 1.0;
@@ -73,7 +73,7 @@ fn a_shallow_truss_snaps_through_to_its_other_side() {
 
 /// Lee's frame: a column and a beam of length 1.2 m, hinged at their far ends, loaded at a fifth of the beam, in
 /// `5 fifths` elements each. The load is the time [N].
-fn frame(fifth: usize, arc_length: bool) -> (Model, SteadySolver) {
+fn frame(fifth: usize, branch: &str) -> (Model, SteadySolver) {
     let rod = |name: &str, at: &str, direction: &str, length: f64, elements: usize| {
         format!(
             r#"(
@@ -96,7 +96,7 @@ fn frame(fifth: usize, arc_length: bool) -> (Model, SteadySolver) {
                 (between: ("stub", "beam.start"), apply: SpringDamper(stiffness: 1e5, rotational_stiffness: 1e3)),
             ],
             forcing: [(on: "stub", apply: EndForce(force: (0, 0, -1), scale: Table([(0, 0), (9, 9)])))],
-            solver: Steady(arc_length: {arc_length}),
+            solver: Steady(branch: {branch}),
         )"#,
         rod("column", "(0, 0, 0)", "(0, 0, 1)", LEG, 5 * fifth),
         rod("stub", "(0, 0, 1.2)", "(1, 0, 0)", LEG / 5.0, fifth),
@@ -125,7 +125,7 @@ fn lees_frame_has_its_limit_load_and_is_followed_past_it() {
         let (mut least, mut most) = (17.0 * unit, 22.0 * unit);
         while most - least > 1e-3 * unit {
             let load = (least + most) / 2.0;
-            let (mut frame, mut solver) = frame(fifth, false);
+            let (mut frame, mut solver) = frame(fifth, "Followed");
             match solver.advance(&mut frame.system, load) {
                 Ok(_) => least = load,
                 Err(_) => most = load,
@@ -140,7 +140,7 @@ fn lees_frame_has_its_limit_load_and_is_followed_past_it() {
     assert!((extrapolated / 18.5 - 1.0).abs() < 0.01, "{extrapolated}");
 
     let load = 1.1 * limits[0] * unit;
-    let (mut frame, mut solver) = frame(8, true);
+    let (mut frame, mut solver) = frame(8, "PastLimits");
     let report = solver.advance(&mut frame.system, load).unwrap();
     let loaded = tip(&frame, "stub");
     println!("past it: {loaded:?}, {report:?}");

@@ -3,7 +3,9 @@
 mod common;
 
 use auxetica::config::Source;
-use auxetica::engine::{Inputs, Model, Series, Stability, SteadyOptions, SteadySolver};
+use auxetica::engine::{
+    Branch, Inputs, Model, ReadBody, Series, Stability, SteadyOptions, SteadySolver,
+};
 use common::{model, tip};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -97,4 +99,22 @@ fn the_papers_robot_is_unstable_upright_in_full_twist_and_stable_leaning() {
     let leaning = at_last(&[[0.0, -0.2 * u, 0.2 * u, 0.0], twist(1.0)]);
     println!("leaning: {leaning:?}");
     assert!(leaning.is_stable());
+
+    // let go, it finds that one itself
+    let mut let_go = robot(&[twist(1.0)]);
+    let options = SteadyOptions {
+        branch: Branch::Stable,
+        ..SteadyOptions::default()
+    };
+    let mut solver = SteadySolver::new(&mut let_go.system, options).unwrap();
+    let report = solver.advance(&mut let_go.system, 1.0).unwrap();
+    let found = solver.stability(&mut let_go.system).unwrap();
+    let platform = let_go
+        .system
+        .body(let_go.system.find("platform").expect("a platform"));
+    let lean = platform.director(0)[(2, 2)].acos().to_degrees();
+    println!("let go: {found:?}, leaning by {lean:.2} degrees; {report:?}");
+    assert!(report.settled > 0);
+    assert!((found.least / leaning.least - 1.0).abs() < 1e-6);
+    assert!((lean - 16.8).abs() < 0.05, "{lean}");
 }

@@ -130,7 +130,17 @@ fn describe(summary: &Summary) -> String {
         [] => String::new(),
         times => format!("; not stable at t = {} s", times.join(", ")),
     };
+    let settled = match summary
+        .steady
+        .iter()
+        .map(|(_, r, _)| r.settled)
+        .sum::<usize>()
+    {
+        0 => String::new(),
+        1 => "; let go and come to rest once".to_owned(),
+        n => format!("; let go and come to rest {n} times"),
+    };
     format!(
-        "{states}, {iterations} Newton iterations; largest force out of balance {residual:.1e} N{unstable}"
+        "{states}, {iterations} Newton iterations; largest force out of balance {residual:.1e} N{settled}{unstable}"
     )
 }

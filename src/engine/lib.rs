@@ -48,7 +48,7 @@ pub use rod::{Rod, Section};
 pub use run::{RunError, Summary};
 pub use scenario::Model;
 pub use site::{JointLoad, Place, Site, Wrench};
-pub use steady::{Sensitivities, Stability, SteadyOptions, SteadyReport, SteadySolver};
+pub use steady::{Branch, Sensitivities, Stability, SteadyOptions, SteadyReport, SteadySolver};
 pub use step::BlowUp;
 pub use system::System;
 pub use view::{Body, LawView, LoadView, PoseView, RateSlices, RateView, ReadBody};

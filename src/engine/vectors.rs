@@ -198,6 +198,13 @@ impl Vectors {
         }
     }
 
+    /// Multiplies every vector.
+    pub fn scale(&mut self, by: f64) {
+        for component in &mut self.components {
+            component.as_mut_slice().iter_mut().for_each(|v| *v *= by);
+        }
+    }
+
     /// Becomes the same as `other`, without allocating if it has its size.
     pub fn copy_from(&mut self, other: &Self) {
         for (own, others) in self.components.iter_mut().zip(&other.components) {

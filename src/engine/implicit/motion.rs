@@ -62,29 +62,23 @@ impl Motion {
             residual: vec![0.0; size],
             change: vec![0.0; size],
         };
-        motion.accelerate(system);
+        motion.find_residual(system);
+        let first = motion.residual.iter().zip(&motion.inertia);
+        motion.before.truly = first.map(|(l, i)| l / i).collect();
+        motion.freedom.project(&mut motion.before.truly);
+        motion.before.scheme.clone_from(&motion.before.truly);
         motion
     }
 
-    /// Accelerations at the start of a step, from the present state and rates.
-    fn accelerate(&mut self, system: &mut System) {
-        self.after.truly.fill(0.0);
-        self.find_residual(system);
-        let parts = self.residual.iter().zip(&self.inertia);
-        for (acceleration, (load, inertia)) in self.before.truly.iter_mut().zip(parts) {
-            *acceleration = load / inertia;
-        }
-        self.freedom.project(&mut self.before.truly);
-        self.before.scheme.copy_from_slice(&self.before.truly);
-    }
-
-    /// Takes all rates from a system.
+    /// Takes all rates from a system. Accelerations go with them: where something stiff is hardly out of balance they are
+    /// so large that a long step would be thrown far off.
     pub(super) fn stop(&mut self, system: &mut System) {
         for group in &mut system.groups {
             group.bodies.state.velocity.clear_to_zero();
             group.bodies.state.omega.clear_to_zero();
         }
-        self.accelerate(system);
+        self.before.truly.fill(0.0);
+        self.before.scheme.fill(0.0);
     }
 
     /// Another system with the same unknowns that moves on from its own present state and rates.

@@ -16,7 +16,7 @@ pub use time_step::{LARGEST_SHARE, StepSize, TimeStep};
 pub use uncertain::Uncertain;
 
 use crate::implicit::ImplicitOptions;
-use crate::steady::SteadyOptions;
+use crate::steady::{Branch, SteadyOptions};
 use auxetica_config::{Finite, NonNegative, Positive, Vec3};
 use ron::value::RawValue;
 use serde::Deserialize;
@@ -197,10 +197,9 @@ pub enum Solver {
         /// Last correction accepted: rotations \[rad\], and displacements in element lengths.
         #[serde(default = "tolerance")]
         tolerance: Positive,
-        /// Whether to go on past limit points, where no state is found further along the loads: back along the path of
-        /// equilibria, and on again.
+        /// Which of several equilibria is sought.
         #[serde(default)]
-        arc_length: bool,
+        branch: Branch,
     },
 }
 
@@ -210,12 +209,10 @@ impl Solver {
         let defaults = SteadyOptions::default();
         match self {
             Self::Steady {
-                tolerance,
-                arc_length,
-                ..
+                tolerance, branch, ..
             } => SteadyOptions {
                 tolerance: **tolerance,
-                arc_length: *arc_length,
+                branch: *branch,
                 ..defaults
             },
             Self::Dynamic { .. } | Self::Implicit { .. } => defaults,

@@ -3,13 +3,14 @@
 //! A steady state at a time is an equilibrium under that time's loads and boundary values. It is reached from the
 //! present one by continuation: boundary values move, and what was out of balance fades, in as few increments as
 //! Newton's method converges for. Equilibria needn't be unique; this follows the branch that it stands on, if asked to past
-//! limit points, too (`arc`).
+//! limit points, too (`arc`), or leaves it for a stable one (`settle`).
 
 mod arc;
 mod block_lu;
 pub(crate) mod diagnosis;
 mod path;
 mod sensitivity;
+mod settle;
 mod stability;
 pub(crate) mod tangent;
 pub(crate) mod unknowns;
@@ -31,9 +32,20 @@ pub struct SteadyOptions {
     pub iterations: usize,
     /// Smallest increment before giving up, as a fraction of the way.
     pub smallest_increment: f64,
-    /// Whether to go on past limit points, where there is no equilibrium further along the way nearby: along the path of
-    /// equilibria, back and on again.
-    pub arc_length: bool,
+    /// Which of several equilibria is sought.
+    pub branch: Branch,
+}
+
+/// Which of several equilibria is sought. Serialised by its name.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+pub enum Branch {
+    /// The one that leads on from the present state, stable or not, up to where there is none nearby (a limit point).
+    #[default]
+    Followed,
+    /// The same, past limit points along the path of equilibria, back and on again (arc length).
+    PastLimits,
+    /// A stable one: where the branch ends or isn't stable, the system is let go and comes to rest on another.
+    Stable,
 }
 
 impl Default for SteadyOptions {
@@ -42,7 +54,7 @@ impl Default for SteadyOptions {
             tolerance: 1e-9,
             iterations: 25,
             smallest_increment: 1e-4,
-            arc_length: false,
+            branch: Branch::Followed,
         }
     }
 }
@@ -56,8 +68,10 @@ pub struct SteadyReport {
     pub increments: usize,
     /// Tangent matrices that were found and factorised; iterations share them while they contract well.
     pub factorisations: usize,
-    /// Evaluations of all loads, those of the tangent matrices included.
+    /// Evaluations of all loads, those of the tangent matrices included and those of motions to rest left out.
     pub evaluations: usize,
+    /// Times that the system was let go and came to rest on another branch.
+    pub settled: usize,
     /// Largest force \[N\] left out of balance (torques are divided by the mean element length).
     pub residual: f64,
 }
@@ -239,16 +253,26 @@ impl SteadySolver {
                     // as small as is harmless, since it may stand at a law's kink; it grows fast
                     let harmless = HARMLESS / 2.0 / trial.first;
                     limit = increment / 2.0;
-                    if limit < TURNING && self.options.arc_length {
-                        self.follow(system, &path, done, report)?;
-                        break;
-                    }
-                    if limit < smallest {
-                        return Err(self.unheld(system).unwrap_or(reason));
+                    match self.options.branch {
+                        Branch::PastLimits if limit < TURNING => {
+                            self.follow(system, &path, done, report)?;
+                            break;
+                        }
+                        Branch::Stable if limit < TURNING => {
+                            self.fall(system, &path, done, report)?;
+                            break;
+                        }
+                        _ if limit < smallest => {
+                            return Err(self.unheld(system).unwrap_or(reason));
+                        }
+                        _ => {}
                     }
                     increment = (increment * harmless.min(0.5)).max(smallest);
                 }
             }
+        }
+        if self.options.branch == Branch::Stable {
+            self.stabilise(system, &path, report)?;
         }
         self.find_imbalance(system, report);
         let largest = self.loads.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
@@ -327,8 +351,7 @@ impl SteadySolver {
             }
         }
         Err("Newton's method didn't converge, however small the increment; follow the load from a smaller one \
-             (ramps, closer times), set `solver.arc_length: true` to go on past a limit point, or settle with the \
-             dynamic solver"
+             (ramps, closer times), or set `solver.branch` to `PastLimits` or `Stable` to go on past a limit point"
             .into())
     }
 

@@ -37,18 +37,22 @@ impl SteadySolver {
     /// If the state is singular, as at a limit point.
     pub fn stability(&mut self, system: &mut System) -> Result<Stability, NotSteady> {
         let time = system.time;
-        let fail = |reason| NotSteady { time, reason };
         // laws had not remembered the state yet when it was sought
         system.swap_memory(&mut self.memory);
-        let factorised = self.factorise(system, &mut SteadyReport::default());
-        system.evaluate();
+        let found = self.stability_of(system);
         system.swap_memory(&mut self.memory);
-        factorised.map_err(fail)?;
+        found.map_err(|reason| NotSteady { time, reason })
+    }
+
+    /// The same with what laws remember now.
+    pub(super) fn stability_of(&mut self, system: &mut System) -> Result<Stability, String> {
+        self.factorise(system, &mut SteadyReport::default())?;
+        system.evaluate();
         let mut inertia = vec![0.0; self.loads.len()];
         self.unknowns.read_inertia(&system.groups, &mut inertia);
         let (hessenberg, beyond) = self
             .arnoldi(&inertia)
-            .ok_or_else(|| fail("the tangent matrix is singular".to_owned()))?;
+            .ok_or("the tangent matrix is singular")?;
         Ok(Stability {
             least: least(&hessenberg, beyond),
         })
