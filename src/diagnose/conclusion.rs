@@ -1,7 +1,7 @@
 //! From fitted models to what a diagnosis says.
 
 use super::experiments::{self, Member};
-use super::forward::NUMERICS;
+use super::forward::{self, NUMERICS};
 use super::locate;
 use super::samples::{KINDS, Phase, Sample, Samples};
 use super::search::{self, Form};
@@ -89,7 +89,13 @@ pub(super) fn conclude(
         explained,
         hidden: hidden(baseline, last),
         noticeable,
-        alarms: [alarms(own, &last.fit.at), astray, worsened].concat(),
+        alarms: [
+            alarms(own, &last.fit.at),
+            astray,
+            worsened,
+            unstable(last, [train, holdout]),
+        ]
+        .concat(),
         audit: audit(train, holdout),
         loads: None,
         traces: last.scores.traces(&baseline.scores, [train, holdout]),
@@ -307,6 +313,24 @@ fn astray(last: &Standing<'_>) -> Vec<String> {
         )
     };
     numbers.map(alarm).collect()
+}
+
+/// Recordings in which the scenario isn't stable, so that the robot may be in another state than the one that is followed.
+fn unstable(last: &Standing<'_>, data: [&[Samples]; 2]) -> Vec<String> {
+    let Ok(source) = last.scenario() else {
+        return vec![];
+    };
+    let alarm = |samples: &Samples| {
+        let (times, all) = forward::unstable(&source, samples).ok()?;
+        let first = times.first()?;
+        Some(format!(
+            "{}: the scenario is not stable at {} of {all} set-points, first at t = {first:.1} s; the robot may have gone to \
+             another branch there (branch_switch): come to them from another side, and set `solver.branch` to `Stable`",
+            samples.name,
+            times.len()
+        ))
+    };
+    data.into_iter().flatten().filter_map(alarm).collect()
 }
 
 fn floor(data: &[Samples]) -> Floor {

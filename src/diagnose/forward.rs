@@ -246,6 +246,26 @@ impl<'a> Run<'a> {
     }
 }
 
+/// Times \[s\] of set-points at which a scenario isn't stable, and how many set-points there are.
+///
+/// # Errors
+/// If the scenario can't be built, or a sample has no steady state.
+pub fn unstable(source: &Source, samples: &Samples) -> Result<(Vec<f64>, usize), CompareError> {
+    let mut run = Run::new(source, samples, None)?;
+    let (mut times, mut all) = (Vec::new(), 0);
+    for (i, sample) in samples.list.iter().enumerate() {
+        run.go(samples, i, |_, _| Ok(()))?;
+        if sample.phase == Phase::Settled {
+            all += 1;
+            let stability = run.solver.stability(&mut run.shown.model.system);
+            if !stability.is_ok_and(|s| s.is_stable()) {
+                times.push(sample.time);
+            }
+        }
+    }
+    Ok((times, all))
+}
+
 /// Simulated less recorded at one sample: positions \[m\], rotation vectors \[rad\], in the base frame.
 fn difference(model: &Model, points: &Points, samples: &Samples, i: usize) -> [f64; CHANNELS] {
     let Points { markers, rest } = points;
