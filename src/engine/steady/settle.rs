@@ -24,7 +24,6 @@ impl SteadySolver {
         from: f64,
         report: &mut SteadyReport,
     ) -> Result<(), String> {
-        self.find_imbalance(system, report);
         let time = self
             .stability_of(system)
             .map_or(UNKNOWN, |s| s.least.abs().sqrt().recip());
