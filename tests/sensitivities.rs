@@ -5,6 +5,7 @@ mod common;
 
 use auxetica::config::Source;
 use auxetica::engine::{Model, ReadBody, Sensitivities, SteadyOptions, SteadySolver};
+use common::derivatives::{by_differences, hold};
 
 /// A small robot: two handed rods under a platform, in gravity, twisted and bent.
 const ROBOT: &str = r#"(
@@ -95,30 +96,14 @@ fn derivatives_are_those_of_whole_new_solutions() {
         } else {
             2e-4 * value.abs()
         };
-        // fourth order, so that the reference is no coarser than what it judges
-        let [a, b, c, d] = [-2.0, -1.0, 1.0, 2.0].map(|k| {
-            let set = format!("{path}={}", value + k * step);
+        let wanted = by_differences(value, step, |value| {
+            let set = format!("{path}={value}");
             outputs(&settled(&self::source(&[set])).0)
         });
-        let wanted: Vec<f64> = (0..a.len())
-            .map(|i| (a[i] - 8.0 * b[i] + 8.0 * c[i] - d[i]) / (12.0 * step))
-            .collect();
-        // outputs of a kind are judged together: a component may vanish
-        for kind in [0..3, 3..12, 12..15, 15..24, 24..27, 27..30, 30..33, 33..34] {
-            let size =
-                |v: &dyn Fn(usize) -> f64| kind.clone().map(|i| v(i).powi(2)).sum::<f64>().sqrt();
-            let wanted_size = size(&|i| wanted[i]);
-            let off = size(&|i| found[(i, column)] - wanted[i]);
-            println!(
-                "{path:38} {kind:?}: {wanted_size:10.3e}, off by {:.1e} of it",
-                off / wanted_size
-            );
-            // what a marker's offset doesn't move is rounding
-            assert!(
-                off <= 1e-5 * wanted_size || off < 1e-9,
-                "{path}, outputs {kind:?}: off by {off:e} of {wanted_size:e}"
-            );
-        }
+        let kinds = [0..3, 3..12, 12..15, 15..24, 24..27, 27..30, 30..33, 33..34];
+        let found: Vec<f64> = found.column(column).iter().copied().collect();
+        // what a marker's offset doesn't move is rounding
+        hold(path, &kinds, &found, &wanted, (1e-5, 1e-9));
     }
 }
 

@@ -2,6 +2,7 @@
 #![allow(dead_code, reason = "each test uses some of it")]
 
 pub mod concealed;
+pub mod derivatives;
 pub mod made;
 
 use auxetica::config::Source;
