@@ -19,7 +19,11 @@ fn diagnosed(angle: f64) -> Diagnosis {
 fn motors_that_hardly_turn_are_too_little_data() {
     let d = diagnosed(0.15);
     assert_eq!(d.verdict, Kind::Insufficient, "{}", d.words);
-    assert!(d.words.starts_with("Too little data"), "{}", d.words);
+    assert!(
+        d.words.starts_with("These recordings show too little"),
+        "{}",
+        d.words
+    );
     assert!(d.effects.is_empty());
     let unseen = d.noticeable.iter().filter(|n| n.share > 1.0).count();
     assert!(2 * unseen > d.noticeable.len());

@@ -397,9 +397,9 @@ fn sentence(
     let all = words.join("; ");
     match kind {
         Kind::Insufficient => format!(
-            "Too little data: nothing is missing above the floor of {:.2} mm and {:.1} mrad, but {unseen} of {tried} effects \
-             would not show here at their typical strength. Let the motors turn further and in more combinations, and hold \
-             longer.",
+            "These recordings show too little: nothing is missing above the floor of {:.2} mm and {:.1} mrad, but {unseen} of \
+             {tried} effects would not be noticed here at their typical strength. Let the motors turn further and in more \
+             combinations, and hold longer.",
             floor.position_mm, floor.rotation_mrad
         ),
         Kind::None => format!(

@@ -212,13 +212,22 @@ impl Noticeable {
     /// In a few words.
     #[must_use]
     pub fn words(&self) -> String {
-        match self.value {
-            Some(value) => format!(
-                "{} at {} = {value:.2e} {}",
-                self.id, self.parameter, self.unit
-            ),
-            None => format!("{} never", self.id),
-        }
+        let Some(value) = self.value else {
+            return format!("{} never", self.id);
+        };
+        let unit = match self.unit.as_str() {
+            "-" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        let beyond = if self.share > 1.0 {
+            format!(", {:.1} times its typical strength", self.share)
+        } else {
+            String::new()
+        };
+        format!(
+            "{} at {} = {value:.2e}{unit}{beyond}",
+            self.id, self.parameter
+        )
     }
 }
 
