@@ -84,21 +84,24 @@ impl WithSimd for Decay<'_> {
             }
         }
         let frames = self.rates.dilatation.len();
-        let whole = frames - frames % LANES;
-        for first in (0..whole).step_by(LANES) {
-            self.damp_frames(first, LANES);
+        let rest = frames % LANES;
+        for first in (0..frames - rest).step_by(LANES) {
+            self.damp_frames(first, LANES, 0);
         }
-        if whole < frames {
-            self.damp_frames(whole, frames - whole);
+        match rest {
+            0 => {}
+            few if few == frames => self.damp_frames(0, few, 0),
+            // whole blocks are vectors: the last one reaches back over frames that are damped already
+            _ => self.damp_frames(frames - LANES, LANES, LANES - rest),
         }
     }
 }
 
 impl Decay<'_> {
-    /// Damps the angular velocities of at most [`LANES`] frames.
+    /// Damps the angular velocities of at most [`LANES`] frames but those that are done.
     #[allow(clippy::needless_range_loop)]
     #[inline(always)]
-    fn damp_frames(&mut self, first: usize, count: usize) {
+    fn damp_frames(&mut self, first: usize, count: usize, done: usize) {
         let RateSlices {
             omega,
             mass,
@@ -140,6 +143,9 @@ impl Decay<'_> {
             }
             if different != 0 {
                 keep = exp_of_each(&exponents);
+                for l in 0..LANES {
+                    keep[l] = if l < done { 1.0 } else { keep[l] };
+                }
                 last = exponents;
             }
             let omega = &mut omega[j][first..][..count];
