@@ -2,11 +2,13 @@
 //! and one after the other (warm), and 100 in elongation; and derivatives with respect to ten of the robot's numbers. The authors' simulator takes about 275 s for each of these
 //! (15 s at 4e-5 s a step, one run to rest).
 
-use auxetica::config::Source;
+mod robot;
+
 use auxetica::engine::{
     End, Inputs, Model, Place, Sensitivities, Series, SteadyOptions, SteadyReport, SteadySolver,
 };
 use comfy_table::{CellAlignment, Table, presets};
+use robot::{NUMBERS, scenario};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -15,25 +17,6 @@ const MOST: f64 = 3.139_846_324_338_117;
 
 /// One steady state: how long it took, and what.
 type Cost = (Duration, SteadyReport);
-
-/// Numbers of the robot that derivatives are taken with respect to.
-const NUMBERS: [&str; 10] = [
-    "rods[0].length",
-    "rods[0].radius",
-    "rods[0].material.youngs",
-    "rods[0].material.shear",
-    "rods[0].material.bending",
-    "rods[0].material.twist",
-    "laws[*].apply.factor",
-    "joints[0].apply.stiffness",
-    "joints[0].apply.rotational_stiffness",
-    "cylinders[0].radius",
-];
-
-fn scenario() -> Source {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot.ron");
-    Source::load(&path, &[]).unwrap_or_else(|e| panic!("{e}"))
-}
 
 /// Motors that go through `angles` [rad] from rest, one row a second.
 fn inputs(angles: &[[f64; 4]]) -> Inputs {

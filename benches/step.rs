@@ -3,12 +3,14 @@
 //! The table at first gives least times of many tries, which other work on the machine hardly changes; criterion's
 //! figures follow.
 
+mod robot;
+
 use auxetica::config::Source;
 use auxetica::engine::{
     ImplicitOptions, ImplicitSolver, Inputs, Model, MotionSensitivities, Series,
 };
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use std::path::Path;
+use robot::{NUMBERS, scenario};
 use std::time::{Duration, Instant};
 
 /// Rods of 1 cm an element, clamped, damped, with a force at the tip.
@@ -34,21 +36,19 @@ fn rods(rods: usize, elements: usize) -> Model {
     Model::build(&source, None).unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// The paper's robot, and inputs that turn its motors.
-fn robot() -> (Source, Inputs) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot.ron");
-    let source = Source::load(&path, &[]).unwrap_or_else(|e| panic!("{e}"));
+/// Inputs that turn the robot's motors.
+fn inputs() -> Inputs {
     let motor = |(i, handed): (usize, f64)| {
         let series = Series::new(vec![0.0, 1e3], vec![0.0, handed * 3.1]);
         (format!("motor_{}", i + 1), series.expect("two points"))
     };
     let motors = [1.0, -1.0, 1.0, -1.0].into_iter().enumerate().map(motor);
-    let inputs = Inputs::new(motors.collect());
-    (source, inputs)
+    Inputs::new(motors.collect())
 }
 
-fn build(source: &Source, inputs: &Inputs) -> Model {
-    Model::build(source, Some(inputs.clone())).unwrap_or_else(|e| panic!("{e}"))
+/// The paper's robot while its motors turn.
+fn robot() -> Model {
+    Model::build(&scenario(), Some(inputs())).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn advance(model: &mut Model, count: u64) {
@@ -101,36 +101,20 @@ fn table(_: &mut Criterion) {
     let memory = allocation_counter::measure(|| model = Some(rods(1, 100_000)));
     println!("{} bytes an element", memory.bytes_current / 100_000);
     drop(model);
-    let (source, inputs) = robot();
-    let time = least(&mut build(&source, &inputs), 10);
+    let time = least(&mut robot(), 10);
     println!("the paper's robot {:.3} us a step", time * 1e6);
     println!("the same, implicit {:.3} us a step", implicit(&[]) * 1e6);
     let time = threads(1).install(|| implicit(&NUMBERS));
     println!("the same with ten derivatives {:.3} us a step", time * 1e6);
 }
 
-/// Numbers of the paper's robot.
-const NUMBERS: [&str; 10] = [
-    "rods[0].length",
-    "rods[0].density",
-    "rods[0].material.youngs",
-    "rods[0].material.shear",
-    "rods[0].material.bending",
-    "rods[0].material.twist",
-    "laws[*].apply.factor",
-    "joints[0].apply.stiffness",
-    "joints[0].apply.rotational_stiffness",
-    "cylinders[0].radius",
-];
-
 /// Mean time of an implicit step of 0.02 s of the robot while its motors turn, with derivatives by some numbers \[s\].
 fn implicit(numbers: &[&str]) -> f64 {
     const STEPS: u32 = 2000;
-    let (source, inputs) = robot();
-    let mut model = build(&source, &inputs);
+    let mut model = robot();
     let options = ImplicitOptions::default();
     let mut solver = ImplicitSolver::new(&mut model.system, options).expect("a robot");
-    let sensitivities = MotionSensitivities::new(&solver, &source, Some(&inputs), numbers);
+    let sensitivities = MotionSensitivities::new(&solver, &scenario(), Some(&inputs()), numbers);
     let mut sensitivities = sensitivities.unwrap_or_else(|e| panic!("{e}"));
     let start = Instant::now();
     for step in 1..=STEPS {
@@ -156,8 +140,7 @@ fn step(c: &mut Criterion) {
     group.finish();
     let mut group = c.benchmark_group("step");
     group.throughput(Throughput::Elements(100));
-    let (source, inputs) = robot();
-    let mut model = build(&source, &inputs);
+    let mut model = robot();
     group.bench_function("robot", |b| b.iter(|| advance(&mut model, 100)));
     group.finish();
 }

@@ -4,17 +4,10 @@ mod common;
 
 use auxetica::config::Source;
 use auxetica::engine::{ImplicitSolver, Model, MotionSensitivities, ReadBody};
-use common::derivatives::{by_differences, hold};
+use common::derivatives::{by_differences, hold, two_rods};
 
-/// A small robot that is twisted fast, swings in gravity and remembers: two handed rods under a platform.
-const ROBOT: &str = r#"(
-    title: "two rods under a platform, in motion",
-    rods: [(
-        name: "hsa", at: {"right": (0.02, 0, 0), "left": (-0.02, 0.001, 0)}, length: 0.06, elements: 6,
-        radius: 0.0127, wall: 0.0024, density: 1050,
-        material: Rigidities(shear: 100, axial: 150, bending: 0.02, twist: 0.01),
-    )],
-    cylinders: [(name: "platform", centre: (0, 0, 0.065), radius: 0.04, thickness: 0.007, mass: 0.05)],
+/// The robot is twisted fast, swings in gravity and remembers.
+const ROBOT: &str = r#"
     laws: [
         (on: "right", apply: Auxetic(handedness: Right, factor: 0.01, averaging: Mean)),
         (on: "left", apply: Auxetic(handedness: Left, factor: 0.01, averaging: Mean)),
@@ -28,7 +21,7 @@ const ROBOT: &str = r#"(
     joints: [(between: ("hsa", "platform"), apply: SpringDamper(stiffness: 2e4, damping: 1, rotational_stiffness: 3))],
     markers: [(name: "platform", on: "platform", offset: (0.01, 0, 0.011))],
     solver: Implicit(dt: 0.004, duration: 0.16, tolerance: 1e-10),
-)"#;
+"#;
 
 /// A number of every kind.
 const PATHS: [&str; 13] = [
@@ -62,7 +55,7 @@ fn outputs(model: &Model) -> Vec<f64> {
 }
 
 fn source(sets: &[String]) -> Source {
-    Source::from_text("robot", ROBOT, sets).unwrap_or_else(|e| panic!("{e}"))
+    two_rods(ROBOT, sets)
 }
 
 fn begun(source: &Source) -> (Model, ImplicitSolver) {
@@ -91,11 +84,10 @@ fn derivatives_are_those_of_whole_new_motions() {
 #[test]
 fn with_damping_derivatives_are_those_of_whole_new_motions_too() {
     let damping = "damping=[(apply: LinearDamping(translational: (2, 2, 2), rotational: (1e-3, 1e-3, 1e-3)))]";
-    let paths = [
-        "damping[0].apply.translational[2]",
-        "rods[0].material.bending",
-    ];
-    are_right(&[damping.into()], &paths, 5e-3);
+    are_right(&[damping.into()], &["rods[0].material.bending"], 2e-5);
+    // what the coefficient itself does is small beside the rounding of rates that it is known by
+    let coefficient = "damping[0].apply.translational[2]";
+    are_right(&[damping.into()], &[coefficient], 5e-3);
 }
 
 /// Derivatives are off by no more than this of what they are, while motors turn and later.

@@ -5,17 +5,10 @@ mod common;
 
 use auxetica::config::Source;
 use auxetica::engine::{Model, ReadBody, Sensitivities, SteadyOptions, SteadySolver};
-use common::derivatives::{by_differences, hold};
+use common::derivatives::{by_differences, hold, two_rods};
 
-/// A small robot: two handed rods under a platform, in gravity, twisted and bent.
-const ROBOT: &str = r#"(
-    title: "two rods under a platform",
-    rods: [(
-        name: "hsa", at: {"right": (0.02, 0, 0), "left": (-0.02, 0.001, 0)}, length: 0.06, elements: 6,
-        radius: 0.0127, wall: 0.0024, density: 1050,
-        material: Rigidities(shear: 100, axial: 150, bending: 0.02, twist: 0.01),
-    )],
-    cylinders: [(name: "platform", centre: (0, 0, 0.065), radius: 0.04, thickness: 0.007, mass: 0.05)],
+/// What twists and bends the robot, in gravity.
+const ROBOT: &str = r#"
     laws: [
         (on: "right", apply: Auxetic(handedness: Right, factor: 0.01, averaging: Mean)),
         (on: "left", apply: Auxetic(handedness: Left, factor: 0.01, averaging: Mean)),
@@ -28,7 +21,7 @@ const ROBOT: &str = r#"(
     joints: [(between: ("hsa", "platform"), apply: SpringDamper(stiffness: 2e4, rotational_stiffness: 3))],
     markers: [(name: "platform", on: "platform", offset: (0.01, 0, 0.011)), (name: "ring", on: "left", along: 0.5)],
     solver: Steady(tolerance: 1e-11),
-)"#;
+"#;
 
 /// A number of every kind.
 const PATHS: [&str; 15] = [
@@ -66,7 +59,7 @@ fn outputs(model: &Model) -> Vec<f64> {
 }
 
 fn source(sets: &[String]) -> Source {
-    Source::from_text("robot", ROBOT, sets).unwrap_or_else(|e| panic!("{e}"))
+    two_rods(ROBOT, sets)
 }
 
 fn settled(source: &Source) -> (Model, SteadySolver) {

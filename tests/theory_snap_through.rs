@@ -137,7 +137,8 @@ fn lees_frame_has_its_limit_load_and_is_followed_past_it() {
     // corners don't bend, which is of first order in an element
     let extrapolated = 2.0 * limits[1] - limits[0];
     println!("limit loads {limits:?}, extrapolated {extrapolated} EI/L2");
-    assert!((extrapolated / 18.5 - 1.0).abs() < 0.01, "{extrapolated}");
+    // of Lee, Manuel and Rossow 1968, as it is commonly quoted
+    assert!((extrapolated / 18.5 - 1.0).abs() < 0.004, "{extrapolated}");
 
     let load = 1.1 * limits[0] * unit;
     let (mut frame, mut solver) = frame(8, "PastLimits");

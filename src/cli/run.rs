@@ -130,12 +130,8 @@ fn describe(summary: &Summary) -> String {
         [] => String::new(),
         times => format!("; not stable at t = {} s", times.join(", ")),
     };
-    let settled = match summary
-        .steady
-        .iter()
-        .map(|(_, r, _)| r.settled)
-        .sum::<usize>()
-    {
+    let settled: usize = summary.steady.iter().map(|(_, r, _)| r.settled).sum();
+    let settled = match settled {
         0 => String::new(),
         1 => "; let go and come to rest once".to_owned(),
         n => format!("; let go and come to rest {n} times"),

@@ -1,23 +1,20 @@
 //! From fitted models to what a diagnosis says.
 
+use super::alarms;
 use super::experiments::{self, Member};
-use super::forward::{self, NUMERICS};
+use super::forward::NUMERICS;
 use super::locate;
 use super::samples::{KINDS, Phase, Sample, Samples};
 use super::search::{self, Form};
 use super::standing::Standing;
-use super::trial::NEAR;
 use super::verdict::{
     Alternative, Diagnosis, Estimated, Experiment, Floor, Hidden, Kind, Named, Noticeable,
 };
 use super::{LEFT, MOST, SOUND};
-use crate::identify::{Effect, Hooked, Parameter, Quantity};
+use crate::identify::{Effect, Hooked, Quantity};
 
 /// Share of the mismatch beyond noise that the named effects must explain.
 const EXPLAINED: f64 = 0.6;
-/// Deviations from its prior beyond which a calibrated number is told.
-const FAR: f64 = 2.5;
-
 /// Times its typical strength from which on an effect that never shows is said to.
 const NEVER: f64 = 1e6;
 
@@ -43,11 +40,10 @@ pub(super) fn conclude(
         Kind::None => noticeable(baseline, forms, effects),
         _ => vec![],
     };
-    let unseen = noticeable.iter().filter(|n| n.share > 1.0).count();
-    if 2 * unseen > noticeable.len() {
+    if 2 * unseen(&noticeable) > noticeable.len() {
         kind = Kind::Insufficient;
     }
-    let astray = astray(last);
+    let astray = alarms::astray(last);
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
     let alike: Vec<&dyn Effect> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
@@ -76,7 +72,7 @@ pub(super) fn conclude(
             (explained, last.mean_square()),
             &floor,
             &ids,
-            (unseen, noticeable.len()),
+            &noticeable,
             &astray,
         ),
         effects: named,
@@ -90,10 +86,10 @@ pub(super) fn conclude(
         hidden: hidden(baseline, last),
         noticeable,
         alarms: [
-            alarms(own, &last.fit.at),
+            alarms::of_numbers(own, &last.fit.at),
             astray,
             worsened,
-            unstable(last, [train, holdout]),
+            alarms::unstable(last, [train, holdout]),
         ]
         .concat(),
         audit: audit(train, holdout),
@@ -248,6 +244,11 @@ fn hidden(baseline: &Standing<'_>, last: &Standing<'_>) -> Option<Hidden> {
     })
 }
 
+/// How many effects would not have been noticed at their typical strength.
+fn unseen(noticeable: &[Noticeable]) -> usize {
+    noticeable.iter().filter(|n| n.share > 1.0).count()
+}
+
 /// From which value on each effect would have been noticed.
 fn noticeable(
     baseline: &Standing<'_>,
@@ -278,59 +279,6 @@ fn noticeable(
         })
     };
     found.into_iter().filter_map(notice).collect()
-}
-
-/// Numbers at an end of their range, or far from what was known beforehand.
-fn alarms(own: &[Parameter], at: &[f64]) -> Vec<String> {
-    let alarm = |(p, value): (&Parameter, &f64)| {
-        let near = |end: f64| (value - end).abs() < NEAR * p.width();
-        if near(p.range.0) || near(p.range.1) {
-            return Some(format!(
-                "{} ended at an end of its range, {value:.4} {}: the range is too narrow, or the number stands for physics \
-                 that is missing",
-                p.name, p.unit
-            ));
-        }
-        let (mean, deviation) = p.prior?;
-        let away = (value - mean).abs() / deviation;
-        (away > FAR).then(|| {
-            format!(
-                "{} is {value:.4} {}, {away:.1} deviations from what was known",
-                p.name, p.unit
-            )
-        })
-    };
-    own.iter().zip(at).filter_map(alarm).collect()
-}
-
-/// Numbers of named effects that ended where what is physical ends.
-fn astray(last: &Standing<'_>) -> Vec<String> {
-    let numbers = last.trial.astray(&last.fit.at).into_iter();
-    let alarm = |(q, value): (&Quantity, f64)| {
-        format!(
-            "{} ended where what is physical ends, {value:.4} {}: something that is not known acts much like the effect",
-            q.name, q.unit
-        )
-    };
-    numbers.map(alarm).collect()
-}
-
-/// Recordings in which the scenario isn't stable, so that the robot may be in another state than the one that is followed.
-fn unstable(last: &Standing<'_>, data: [&[Samples]; 2]) -> Vec<String> {
-    let Ok(source) = last.scenario() else {
-        return vec![];
-    };
-    let alarm = |samples: &Samples| {
-        let (times, all) = forward::unstable(&source, samples).ok()?;
-        let first = times.first()?;
-        Some(format!(
-            "{}: the scenario is not stable at {} of {all} set-points, first at t = {first:.1} s; the robot may have gone to \
-             another branch there (branch_switch): come to them from another side, and set `solver.branch` to `Stable`",
-            samples.name,
-            times.len()
-        ))
-    };
-    data.into_iter().flatten().filter_map(alarm).collect()
 }
 
 fn floor(data: &[Samples]) -> Floor {
@@ -389,7 +337,7 @@ fn sentence(
     (explained, left): (f64, f64),
     floor: &Floor,
     class: &[String],
-    (unseen, tried): (usize, usize),
+    noticeable: &[Noticeable],
     astray: &[String],
 ) -> String {
     let words: Vec<&str> = named.iter().map(|n| n.words.as_str()).collect();
@@ -397,10 +345,13 @@ fn sentence(
     let all = words.join("; ");
     match kind {
         Kind::Insufficient => format!(
-            "These recordings show too little: nothing is missing above the floor of {:.2} mm and {:.1} mrad, but {unseen} of \
-             {tried} effects would not be noticed here at their typical strength. Let the motors turn further and in more \
+            "These recordings show too little: nothing is missing above the floor of {:.2} mm and {:.1} mrad, but {} of \
+             {} effects would not be noticed here at their typical strength. Let the motors turn further and in more \
              combinations, and hold longer.",
-            floor.position_mm, floor.rotation_mrad
+            floor.position_mm,
+            floor.rotation_mrad,
+            unseen(noticeable),
+            noticeable.len()
         ),
         Kind::None => format!(
             "Nothing is missing above the floor of {:.2} mm and {:.1} mrad: the calibrated scenario explains the recordings.",

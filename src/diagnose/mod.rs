@@ -6,6 +6,7 @@
 //! explains enough on the recordings that are trained on, worsens none of them, and holds on recordings held out. What the
 //! motors report as their loads is held against the model that explains the poses ([`loads`]).
 
+mod alarms;
 mod conclusion;
 pub mod curves;
 pub mod experiments;

@@ -121,6 +121,18 @@ impl State {
         self.memory.clone_from(&other.memory);
     }
 
+    /// Multiplies all rates.
+    pub(crate) fn scale_rates(&mut self, by: f64) {
+        self.velocity.scale(by);
+        self.omega.scale(by);
+    }
+
+    /// Takes all rates away.
+    pub(crate) fn stop(&mut self) {
+        self.velocity.clear_to_zero();
+        self.omega.clear_to_zero();
+    }
+
     /// Takes positions, frames and rates of `other`, but not what its laws remember.
     pub(crate) fn pose_as(&mut self, other: &Self) {
         self.position.copy_from(&other.position);

@@ -3,6 +3,7 @@
 use crate::inputs::Inputs;
 use crate::scenario::Model;
 use auxetica_config::{Problems, Source};
+use nalgebra::DMatrix;
 
 /// Step of the differences, as a share of the number; of a number that is zero, in its own unit.
 const STEP: f64 = 1e-4;
@@ -34,6 +35,12 @@ impl Varied {
         }
         problems.into_result()?;
         Ok(all)
+    }
+
+    /// Derivatives of outputs from their values where the number is larger and smaller.
+    pub(crate) fn slopes(&self, more: &[f64], less: &[f64]) -> Vec<f64> {
+        let slope = |(m, l): (&f64, &f64)| (m - l) / (2.0 * self.step);
+        more.iter().zip(less).map(slope).collect()
     }
 
     fn new(
@@ -78,4 +85,10 @@ impl Varied {
             models: [build(value + step)?, build(value - step)?],
         })
     }
+}
+
+/// Derivatives of outputs (rows) by numbers (columns).
+pub(crate) fn matrix(columns: &[Vec<f64>]) -> DMatrix<f64> {
+    let rows = columns.first().map_or(0, Vec::len);
+    DMatrix::from_iterator(rows, columns.len(), columns.iter().flatten().copied())
 }

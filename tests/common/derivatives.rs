@@ -1,6 +1,24 @@
 //! Derivatives held against those of whole new solutions.
 
+use auxetica::config::Source;
 use std::ops::Range;
+
+/// A small robot of two handed rods under a platform, and what else a scenario says of it.
+pub fn two_rods(rest: &str, sets: &[String]) -> Source {
+    let text = format!(
+        r#"(
+            title: "two rods under a platform",
+            rods: [(
+                name: "hsa", at: {{"right": (0.02, 0, 0), "left": (-0.02, 0.001, 0)}}, length: 0.06, elements: 6,
+                radius: 0.0127, wall: 0.0024, density: 1050,
+                material: Rigidities(shear: 100, axial: 150, bending: 0.02, twist: 0.01),
+            )],
+            cylinders: [(name: "platform", centre: (0, 0, 0.065), radius: 0.04, thickness: 0.007, mass: 0.05)],
+            {rest}
+        )"#
+    );
+    Source::from_text("robot", &text, sets).unwrap_or_else(|e| panic!("{e}"))
+}
 
 /// Derivatives of outputs by a number, by differences of fourth order, so that the reference is no coarser than what it
 /// judges; `outputs` are those for a value.

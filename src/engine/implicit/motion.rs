@@ -74,8 +74,7 @@ impl Motion {
     /// so large that a long step would be thrown far off.
     pub(super) fn stop(&mut self, system: &mut System) {
         for group in &mut system.groups {
-            group.bodies.state.velocity.clear_to_zero();
-            group.bodies.state.omega.clear_to_zero();
+            group.bodies.state.stop();
         }
         self.before.truly.fill(0.0);
         self.before.scheme.fill(0.0);

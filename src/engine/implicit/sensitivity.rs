@@ -4,15 +4,15 @@
 //! of a step they take its poses, what is held where they hold it, and their residuals `R` there differ by what the number
 //! does to loads and by what it has done so far to rates, accelerations and memory. Poses move apart, as far to one side as
 //! to the other, until residuals no longer differ; corrections are those of the system's own tangent matrix. So a step costs
-//! a factorisation beside its own, and some evaluations a number. Damping is known by a
-//! difference of rates that nearly cancel, so derivatives by its own numbers may be off by some 1e-3 where they are small.
+//! a factorisation beside its own, and some evaluations a number. Damping is known by a difference of rates that nearly
+//! cancel, so derivatives by its own numbers may be off by some 1e-3 where they are small.
 
 use super::motion::Motion;
 use super::{ImplicitSolver, NoStep};
 use crate::inputs::Inputs;
 use crate::scenario::Model;
 use crate::system::System;
-use crate::varied::Varied;
+use crate::varied::{self, Varied};
 use auxetica_config::{Problems, Source};
 use nalgebra::DMatrix;
 use rayon::prelude::*;
@@ -52,7 +52,9 @@ impl MotionSensitivities {
         let parameter = |mut number: Varied| {
             let motions = number.models.each_mut().map(|model| {
                 model.system.apply_boundaries();
-                solver.motion.of(&mut model.system)
+                let mut motion = solver.motion.of(&mut model.system);
+                motion.begin(&model.system);
+                motion
             });
             Parameter { number, motions }
         };
@@ -75,7 +77,7 @@ impl MotionSensitivities {
         solver.advance_with(system, time, &mut |solver, system, h| {
             solver.motion.find_residual(system);
             solver.factorise(system, h)?;
-            // only when all have been found does the past change
+            // only when all have been found does the past change: a step that fails is tried again from there
             let parameters = &mut self.parameters;
             (parameters.par_iter_mut()).try_for_each(|p| p.follow(solver, system, h))?;
             parameters.iter_mut().for_each(|p| p.end(h));
@@ -91,21 +93,17 @@ impl MotionSensitivities {
                 model.system.evaluate();
                 outputs(model)
             });
-            let slope = |(m, l): (&f64, &f64)| (m - l) / (2.0 * number.step);
-            more.iter().zip(&less).map(slope).collect()
+            number.slopes(&more, &less)
         });
-        let columns: Vec<Vec<f64>> = columns.collect();
-        let rows = columns.first().map_or(0, Vec::len);
-        DMatrix::from_fn(rows, columns.len(), |i, j| columns[j][i])
+        varied::matrix(&columns.collect::<Vec<_>>())
     }
 }
 
 impl Parameter {
     /// Neighbours at the end of a step of `h` that has led the system to its present poses.
     fn follow(&mut self, solver: &ImplicitSolver, system: &System, h: f64) -> Result<(), String> {
-        for (model, motion) in self.number.models.iter_mut().zip(&mut self.motions) {
+        for model in &mut self.number.models {
             let neighbour = &mut model.system;
-            motion.begin(neighbour);
             for (group, to) in neighbour.groups.iter_mut().zip(&system.groups) {
                 group.bodies.state.pose_as(&to.bodies.state);
             }
@@ -163,6 +161,7 @@ impl Parameter {
                 model.system.remember();
             }
             motion.end();
+            motion.begin(&model.system);
         }
     }
 }

@@ -69,8 +69,7 @@ impl ImplicitSolver {
             }
             let slower = (-DECAY * h / time).exp();
             for group in &mut system.groups {
-                group.bodies.state.velocity.scale(slower);
-                group.bodies.state.omega.scale(slower);
+                group.bodies.state.scale_rates(slower);
             }
             h = (h * GROWTH).min(longest);
         }

@@ -5,7 +5,7 @@
 
 use super::path::{Path, Poses};
 use super::unknowns::PER_STATION;
-use super::{CONTRACTION, DIFFERENCE, HARMLESS, SteadyReport, SteadySolver, Trial};
+use super::{CONTRACTION, HARMLESS, SteadyReport, SteadySolver, Trial};
 use crate::system::System;
 
 /// Motion of the longest step.
@@ -82,7 +82,6 @@ impl SteadySolver {
             path.turn_walls(system, to);
             report.iterations += 1;
             let along = self.tangent_of(system, path, to, report)?;
-            self.find_imbalance(system, report);
             self.correction(path, 0.0, to)?;
             let share_change = -self.dot(tangent, &self.change) / self.dot(tangent, &along);
             let parts = self.change.iter().zip(&along);
@@ -104,7 +103,7 @@ impl SteadySolver {
         Err("steps along the path of equilibria don't converge past the limit point".into())
     }
 
-    /// Displacements for a unit of the share at the present state, whose tangent matrix is found.
+    /// Displacements for a unit of the share at the present state, whose tangent matrix and loads are found.
     fn tangent_of(
         &mut self,
         system: &mut System,
@@ -114,13 +113,10 @@ impl SteadySolver {
     ) -> Result<Vec<f64>, String> {
         self.factorise(system, report)?;
         self.find_imbalance(system, report);
-        let still = self.loads.clone();
-        path.turn_walls(system, share + DIFFERENCE);
-        self.find_imbalance(system, report);
-        path.turn_walls(system, share);
+        let turning = self.turning_walls(system, path, (share, 1.0), report);
         let mut tangent = path.moves.clone();
         for (i, t) in tangent.iter_mut().enumerate() {
-            *t -= path.imbalance[i] + (self.loads[i] - still[i]) / DIFFERENCE;
+            *t -= path.imbalance[i] + turning[i];
         }
         self.tangent
             .solve(&mut tangent)

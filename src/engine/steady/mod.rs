@@ -299,13 +299,11 @@ impl SteadySolver {
                 return Err(diagnosis::not_finite(system));
             }
             if ahead > 0.0 {
-                let still = self.loads.clone();
-                path.turn_walls(system, from + DIFFERENCE * ahead);
-                self.find_imbalance(system, report);
-                path.turn_walls(system, from);
-                for (load, still) in self.loads.iter_mut().zip(still) {
-                    *load = still + (*load - still) / DIFFERENCE;
-                }
+                let turning = self.turning_walls(system, path, (from, ahead), report);
+                self.loads
+                    .iter_mut()
+                    .zip(turning)
+                    .for_each(|(l, t)| *l += t);
             }
             if self.moved.is_none_or(|moved| moved > NEAR) {
                 self.factorise(system, report)?;
@@ -353,6 +351,24 @@ impl SteadySolver {
         Err("Newton's method didn't converge, however small the increment; follow the load from a smaller one \
              (ramps, closer times), or set `solver.branch` to `PastLimits` or `Stable` to go on past a limit point"
             .into())
+    }
+
+    /// How the loads change, to first order, as walls turn by a share of the path from one share of it on. Walls and loads
+    /// stay.
+    fn turning_walls(
+        &mut self,
+        system: &mut System,
+        path: &Path,
+        (from, ahead): (f64, f64),
+        report: &mut SteadyReport,
+    ) -> Vec<f64> {
+        let still = self.loads.clone();
+        path.turn_walls(system, from + DIFFERENCE * ahead);
+        self.find_imbalance(system, report);
+        path.turn_walls(system, from);
+        let turned = std::mem::replace(&mut self.loads, still);
+        let changes = turned.iter().zip(&self.loads);
+        changes.map(|(t, s)| (t - s) / DIFFERENCE).collect()
     }
 
     /// Whether already a glimpse of the first correction leaves much to correct. Poses, loads and the correction stay.

@@ -50,8 +50,7 @@ impl Poses {
 pub(super) fn hold(system: &mut System) {
     system.apply_boundaries();
     for group in &mut system.groups {
-        group.bodies.state.velocity.clear_to_zero();
-        group.bodies.state.omega.clear_to_zero();
+        group.bodies.state.stop();
     }
 }
 

@@ -11,7 +11,7 @@ use super::{NotSteady, SteadyReport, SteadySolver};
 use crate::inputs::Inputs;
 use crate::scenario::Model;
 use crate::system::System;
-use crate::varied::Varied;
+use crate::varied::{self, Varied};
 use auxetica_config::{Problems, Source};
 use nalgebra::DMatrix;
 
@@ -69,8 +69,7 @@ impl Sensitivities {
             Ok(parameter.outputs(solver, &here, &change, outputs))
         });
         let columns = columns.collect::<Result<Vec<Vec<f64>>, _>>()?;
-        let rows = columns.first().map_or(0, Vec::len);
-        Ok(DMatrix::from_fn(rows, columns.len(), |i, j| columns[j][i]))
+        Ok(varied::matrix(&columns))
     }
 }
 
@@ -131,7 +130,6 @@ impl Varied {
             outputs(model)
         };
         let (forth, back) = (values(more, self.step), values(less, -self.step));
-        let slope = |(f, b): (&f64, &f64)| (f - b) / (2.0 * self.step);
-        forth.iter().zip(&back).map(slope).collect()
+        self.slopes(&forth, &back)
     }
 }

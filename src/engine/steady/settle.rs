@@ -24,9 +24,7 @@ impl SteadySolver {
         from: f64,
         report: &mut SteadyReport,
     ) -> Result<(), String> {
-        let time = self
-            .stability_of(system)
-            .map_or(UNKNOWN, |s| s.least.abs().sqrt().recip());
+        let time = self.stability_of(system).map_or(UNKNOWN, |s| s.time());
         // what is held goes to the end at once
         path.turn_walls(system, 1.0);
         let rest = path.moves.iter().map(|m| m * (1.0 - from));
@@ -51,16 +49,18 @@ impl SteadySolver {
             self.freedom.project(&mut push);
             // what is soft gives way most
             if !self.tangent.solve(&mut push) {
-                return Err("it is singular".into());
+                return Err(
+                    "the state is unstable and its tangent matrix singular; go on a little".into(),
+                );
             }
             let size = PUSH / self.size(&push).motion;
             push.iter_mut().for_each(|p| *p *= size);
             self.unknowns.displace_all(&mut system.groups, &push);
-            let time = stability.least.abs().sqrt().recip();
-            self.settle(system, path, time, report)?;
+            self.settle(system, path, stability.time(), report)?;
         }
         Err(format!(
-            "it is unstable, and so were the {PUSHES} others next to it"
+            "the state is unstable, and so were the {PUSHES} that the system came to when it was let go; follow its branch \
+             instead, or let it settle with the dynamic solver"
         ))
     }
 

@@ -28,6 +28,11 @@ impl Stability {
     pub fn is_stable(&self) -> bool {
         self.least > 0.0
     }
+
+    /// Time \[s\] within which a disturbance grows, or swings by a radian.
+    pub(super) fn time(&self) -> f64 {
+        self.least.abs().sqrt().recip()
+    }
 }
 
 impl SteadySolver {

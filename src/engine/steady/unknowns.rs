@@ -288,8 +288,7 @@ fn probe(system: &mut System, unknowns: &Unknowns, unit: Option<usize>) -> Vec<V
             let (v, w) = (state.velocity.get(k), state.omega.get(k));
             rates.push(Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
         }
-        group.bodies.state.velocity.clear_to_zero();
-        group.bodies.state.omega.clear_to_zero();
+        group.bodies.state.stop();
     }
     rates
 }
