@@ -34,7 +34,7 @@ pub(super) fn of_numbers(own: &[Parameter], at: &[f64]) -> Vec<String> {
 
 /// Numbers of named effects that ended where what is physical ends.
 pub(super) fn astray(last: &Standing<'_>) -> Vec<String> {
-    let numbers = last.trial.astray(&last.fit.at).into_iter();
+    let numbers = last.trial.astray(&last.tolerant).into_iter();
     let alarm = |(q, value): (&Quantity, f64)| {
         format!(
             "{} ended where what is physical ends, {value:.4} {}: something that is not known acts much like the effect",

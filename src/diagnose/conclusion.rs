@@ -150,7 +150,7 @@ fn kind(
         _ if explained < EXPLAINED && left >= SOUND => Kind::Unexplained,
         _ if worsens || left > LEFT => Kind::Unexplained,
         // a cause that must be stronger than it can be stands for another
-        _ if !last.trial.astray(&last.fit.at).is_empty() => Kind::Unexplained,
+        _ if !last.trial.astray(&last.tolerant).is_empty() => Kind::Unexplained,
         // so many, and still not all of it: they imitate something else
         _ if named.len() == MOST && left >= SOUND => Kind::Unexplained,
         // what only describes explains nothing unless it leaves nothing

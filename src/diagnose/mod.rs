@@ -38,7 +38,7 @@ use trial::Trial;
 use verdict::Diagnosis;
 
 /// Mean squared residual up to which there is nothing to explain.
-const SOUND: f64 = 1.5;
+const SOUND: f64 = 1.0;
 /// Mean squared residual beyond which what is left is not explained, however much is.
 const LEFT: f64 = 4.0;
 /// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.

@@ -41,6 +41,11 @@ impl Shared {
         shared
     }
 
+    /// Whether samples share nothing.
+    pub fn is_empty(&self) -> bool {
+        self.directions.is_empty()
+    }
+
     /// The same, and what the mesh does, as [`meshes`] has it.
     pub fn with(mut self, meshes: Vec<DVector<f64>>) -> Self {
         for change in meshes {

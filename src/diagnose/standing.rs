@@ -5,13 +5,14 @@ use super::samples::{KINDS, Samples};
 use super::scores::Scores;
 use super::search::{self, Candidate, Form};
 use super::shared::{self, Shared};
-use super::trial::{DAMPING, Linear, Trial};
+use super::trial::{Linear, Trial};
 use super::{DiagnoseError, LEFT, ODDS, unfit};
 use crate::config::Source;
 use crate::identify::{Effect, Variant};
 use nalgebra::DVector;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
+use rayon::prelude::*;
 use statrs::statistics::{Data, Median};
 use std::sync::Arc;
 
@@ -73,8 +74,16 @@ pub(super) struct Alternative<'a> {
     pub(super) model: (Trial<'a>, Vec<f64>),
 }
 
-/// A candidate that is best, its probability, and those of other effects that do as well.
-type Ranked<'c> = (&'c Candidate, f64, Vec<&'c Candidate>);
+/// The best of candidates.
+struct Ranked<'c> {
+    best: &'c Candidate,
+    /// Chi2 that it leaves.
+    left: f64,
+    /// Its probability among the candidates.
+    probability: f64,
+    /// The best of other effects that do as well.
+    alike: Vec<&'c Candidate>,
+}
 
 impl<'a> Standing<'a> {
     /// The scenario without effects, its own numbers fitted from their nominal values and from one place in their ranges.
@@ -145,73 +154,70 @@ impl<'a> Standing<'a> {
         let used = |group| self.named.iter().any(|(f, _)| forms[*f].group == group);
         let open = |f: &usize| !used(forms[*f].group) && among.is_cause(*f) == among.causes;
         let open = (0..forms.len()).filter(open).collect();
-        let found = search::round(&self.trial, &self.fit, forms, open, told);
+        let mut found = search::round(&self.trial, &self.fit, forms, open, told);
         let much = self.named.is_empty() || self.mean_square() > LEFT;
         let gain = match much {
             _ if self.trial.data[0].weighed() => GAIN_FAR_OFF,
             true => GAIN[0],
             false => GAIN[1],
         };
-        let mut found = self.tolerated(found, forms)?;
         for _ in 0..TRIED {
-            let Some((best, probability, alike)) = self.ranked(&found, forms) else {
+            let Some(ranked) = self.ranked(&self.tolerated(&found, forms)?, forms) else {
                 break;
             };
-            if best.fit.chi2() > (1.0 - gain) * self.fit.chi2() {
+            if ranked.left > (1.0 - gain) * self.tolerant.chi2() {
                 break;
             }
-            let next = self.joined(best, (probability, alike), forms, holdout)?;
+            let refused = forms[ranked.best.form].group;
+            let next = self.joined(&ranked, forms, holdout)?;
             // what is no cause has nothing to say for itself but that it does well throughout
             let does_well =
                 |next: &Self| among.causes || next.scores.worsened(&self.scores).is_empty();
             if let Some(next) = next.filter(does_well) {
                 return Ok(Some(next));
             }
-            let refused = forms[best.form].group;
-            found.retain(|(_, c)| forms[c.form].group != refused);
+            found.retain(|c| forms[c.form].group != refused);
         }
         Ok(None)
     }
 
-    /// Candidates with the chi2 that is left where errors shared by samples are noise, to first order. They are those at
-    /// the best candidate: what the mesh does depends little on which.
-    fn tolerated(
+    /// Those of the candidates that aren't plainly worse than the best, with the chi2 that is left where errors shared by
+    /// samples are noise. The errors are those at the best candidate: what the mesh does depends little on which.
+    fn tolerated<'c>(
         &self,
-        found: Vec<Candidate>,
+        found: &'c [Candidate],
         forms: &'a [Form],
-    ) -> Result<Vec<(f64, Candidate)>, DiagnoseError> {
+    ) -> Result<Vec<(f64, &'c Candidate)>, DiagnoseError> {
         let Some(best) = found.first() else {
             return Ok(vec![]);
         };
         let with = |c: &Candidate| self.trial.with(&forms[c.form].variant);
         let (shared, _) = shared_errors(&with(best), &best.fit)?;
-        let measured = self.trial.measured() as usize;
-        let left = |candidate: Candidate| {
-            let white = candidate.fit.whitened(&shared, measured);
-            (with(&candidate).step(&white, DAMPING).1, candidate)
+        // errors that are shared don't make up for a fit that is plainly worse
+        let close = |c: &&Candidate| c.fit.chi2() <= PLAINLY_WORSE * best.fit.chi2();
+        let shared = Arc::new(shared);
+        let left = |candidate: &'c Candidate| {
+            let fit = with(candidate).tolerating(&candidate.fit, shared.clone(), STEPS.1);
+            (fit.chi2(), candidate)
         };
-        Ok(found.into_iter().map(left).collect())
+        Ok(found.par_iter().filter(close).map(left).collect())
     }
 
     /// The same with a form that was fitted, unless recordings held out refuse it.
     fn joined(
         &self,
-        best: &Candidate,
-        (probability, alike): (f64, Vec<&Candidate>),
+        ranked: &Ranked<'_>,
         forms: &'a [Form],
         holdout: &[Samples],
     ) -> Result<Option<Self>, DiagnoseError> {
+        let best = ranked.best;
         let mut named = self.named.clone();
-        named.push((best.form, probability));
+        named.push((best.form, ranked.probability));
         let mut trial = self.trial.with(&forms[best.form].variant);
         let mut fit = best.fit.clone();
         drop_needless(&mut trial, &mut fit, &mut named);
         let (trial, fit) = settled(trial, fit);
         let scenario = trial.scenario(&fit.at).map_err(unfit)?;
-        // what only helps beyond what is physical is not a further cause
-        if named.len() > 1 && !trial.astray(&fit.at).is_empty() {
-            return Ok(None);
-        }
         // a model that can't follow a recording held out is worse there
         let Ok(scores) = Scores::of(&scenario, trial.data, holdout) else {
             return Ok(None);
@@ -220,6 +226,10 @@ impl<'a> Standing<'a> {
             return Ok(None);
         }
         let (tolerant, with_mesh) = tolerant(&trial, &fit)?;
+        // what only helps beyond what is physical is not a further cause
+        if named.len() > 1 && !trial.astray(&tolerant).is_empty() {
+            return Ok(None);
+        }
         let alternative = |c: &Candidate| {
             let Form {
                 effect, variant, ..
@@ -229,7 +239,7 @@ impl<'a> Standing<'a> {
                 model: (self.trial.with(variant), c.fit.at.clone()),
             }
         };
-        let alternatives = alike.into_iter().map(alternative).collect();
+        let alternatives = ranked.alike.iter().copied().map(alternative).collect();
         Ok(Some(Self {
             tolerant,
             with_mesh,
@@ -242,18 +252,14 @@ impl<'a> Standing<'a> {
     }
 
     /// The best of fitted forms, its probability, and the effects that do as well.
-    fn ranked<'c>(&self, found: &'c [(f64, Candidate)], forms: &[Form]) -> Option<Ranked<'c>> {
+    fn ranked<'c>(&self, found: &[(f64, &'c Candidate)], forms: &[Form]) -> Option<Ranked<'c>> {
         let measured = self.trial.measured();
-        // errors that are shared don't make up for a fit that is plainly worse
-        let (_, first) = found.first()?;
-        let close = |c: &&(f64, Candidate)| c.1.fit.chi2() <= PLAINLY_WORSE * first.fit.chi2();
-        let found: Vec<&(f64, Candidate)> = found.iter().filter(close).collect();
         let least = found.iter().map(|c| c.0).min_by(f64::total_cmp)?;
         let scale = (least / measured).max(1.0);
-        let cost = |(left, c): &(f64, Candidate)| {
+        let cost = |(left, c): &(f64, &Candidate)| {
             left / scale + forms[c.form].variant.quantities.len() as f64 * measured.ln()
         };
-        let mut ranked: Vec<_> = (found.into_iter()).map(|c| (cost(c), c.0, &c.1)).collect();
+        let mut ranked: Vec<_> = found.iter().map(|c| (cost(c), c.0, c.1)).collect();
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
         let (best_cost, best_left, best) = ranked[0];
         let mut weights = Vec::new();
@@ -276,7 +282,12 @@ impl<'a> Standing<'a> {
             weights.push((group, weight));
         }
         let total: f64 = weights.iter().map(|(_, weight)| weight).sum();
-        Some((best, 1.0 / total, alike))
+        Some(Ranked {
+            best,
+            left: best_left,
+            probability: 1.0 / total,
+            alike,
+        })
     }
 }
 
@@ -354,13 +365,7 @@ fn tolerant(trial: &Trial<'_>, fit: &Linear) -> Result<(Linear, Vec<f64>), Diagn
     let (shared, finer) = shared_errors(trial, fit)?;
     let still = || vec![0.0; fit.at.len()];
     let with_mesh = finer.map_or_else(still, |finer| trial.response(fit, &finer));
-    let start = fit.whitened(&shared, trial.measured() as usize);
-    let trial = Trial {
-        shared: Arc::new(shared),
-        ..trial.clone()
-    };
-    let all = 0..fit.at.len();
-    Ok((trial.fit(start, all, STEPS.1), with_mesh))
+    Ok((trial.tolerating(fit, Arc::new(shared), STEPS.1), with_mesh))
 }
 
 /// Errors that samples share at a fit, and what a finer mesh does there; where another mesh has no steady states, its

@@ -105,10 +105,12 @@ pub struct Slopes {
     pub states: Vec<Guide>,
 }
 
-/// Times chi2 that squared residuals are let grow to in a step, before shared errors are taken out.
+/// Times chi2 that squared residuals are let grow to in a step.
 const MUCH: f64 = 4.0;
 /// Share of a range within which a value is at its end.
 pub const NEAR: f64 = 1e-3;
+/// Fall of chi2 beyond the end of a range that noise makes once in twenty times.
+const BEYOND: f64 = 3.84;
 /// Least damping of the steps.
 pub const DAMPING: f64 = 1e-6;
 
@@ -219,18 +221,21 @@ impl<'a> Trial<'a> {
         }
     }
 
-    /// Numbers of the forms that would go on if what is physical didn't end there, with their values. What is absent at an
-    /// end of its range, or zero there, may well stand there.
-    pub fn astray(&self, at: &[f64]) -> Vec<(&Quantity, f64)> {
-        let quantities = self.forms.iter().flat_map(|form| &form.quantities);
-        let values = at[self.own.len()..].iter().copied();
-        let at_end = |(q, value): &(&Quantity, f64)| {
+    /// Numbers of the forms that would go on if what is physical didn't end there, with their values: chi2 would fall by
+    /// more than noise makes it. What is absent at an end of its range, or zero there, may well stand there.
+    pub fn astray(&self, fit: &Linear) -> Vec<(&Quantity, f64)> {
+        let noise = (fit.chi2() / self.measured()).max(1.0);
+        let own = self.own.len();
+        let astray = |j: usize| {
+            let (q, value) = (self.quantity(j - own), fit.at[j]);
             let near = NEAR * (q.range.1 - q.range.0);
-            [q.range.0, q.range.1].iter().any(|end| {
+            let at_end = [q.range.0, q.range.1].iter().any(|end| {
                 (value - end).abs() < near && end.abs() > near && (q.null - end).abs() > near
-            })
+            });
+            let gain = || self.step(fit, DAMPING).1 - self.step_past_end(fit, j);
+            (at_end && gain() > BEYOND * noise).then_some((q, value))
         };
-        quantities.zip(values).filter(at_end).collect()
+        (own..fit.at.len()).filter_map(astray).collect()
     }
 
     fn quantity(&self, k: usize) -> &Quantity {
@@ -398,7 +403,23 @@ impl<'a> Trial<'a> {
 
     /// The values that make the linearised residuals least, within the ranges, and what is left of chi2 then.
     pub fn step(&self, linear: &Linear, damping: f64) -> (Vec<f64>, f64) {
-        let (along, scaled) = self.scaled(linear);
+        self.step_along(linear, self.scaled(linear), damping)
+    }
+
+    /// What would be left of chi2 if value `j` had no range.
+    fn step_past_end(&self, linear: &Linear, j: usize) -> f64 {
+        let (mut along, scaled) = self.scaled(linear);
+        along[j].range = (f64::NEG_INFINITY, f64::INFINITY);
+        self.step_along(linear, (along, scaled), DAMPING).1
+    }
+
+    /// [`Self::step`] from what [`Self::scaled`] gives.
+    fn step_along(
+        &self,
+        linear: &Linear,
+        (along, scaled): (Vec<Coordinate>, DMatrix<f64>),
+        damping: f64,
+    ) -> (Vec<f64>, f64) {
         let (normal, slope) = (scaled.tr_mul(&scaled), scaled.tr_mul(&linear.residuals));
         let mut damped = normal.clone();
         let largest = normal.diagonal().amax().max(1e-300);
@@ -443,12 +464,26 @@ impl<'a> Trial<'a> {
         self.linear(at, 0..at.len(), near, f64::INFINITY)
     }
 
+    /// A fit continued, in at most so many steps, with errors that samples share.
+    pub fn tolerating(&self, fit: &Linear, shared: Arc<Shared>, iterations: usize) -> Linear {
+        let start = fit.whitened(&shared, self.measured() as usize);
+        let trial = Self {
+            shared,
+            ..self.clone()
+        };
+        let all = 0..start.at.len();
+        trial.fit(start, all, iterations)
+    }
+
     /// Fits all values from `here`, in at most `iterations` steps, after each of which derivatives by `fresh` are
     /// computed again; others stay.
     pub fn fit(&self, mut here: Linear, fresh: Range<usize>, iterations: usize) -> Linear {
         let mut damping = DAMPING;
-        // beyond this it isn't better, whatever samples share
-        let mut most = MUCH * here.chi2();
+        // beyond this it isn't better, unless samples share what it is off by
+        let most = |chi2: f64| match self.shared.is_empty() {
+            true => MUCH * chi2,
+            false => f64::INFINITY,
+        };
         for _ in 0..iterations {
             let mut better = None;
             for _ in 0..6 {
@@ -456,7 +491,7 @@ impl<'a> Trial<'a> {
                 if here.chi2() - promised < 0.2 + 1e-5 * here.chi2() {
                     break;
                 }
-                match self.linear(&there, fresh.clone(), Some(&here), most) {
+                match self.linear(&there, fresh.clone(), Some(&here), most(here.chi2())) {
                     Ok(next) if next.chi2() < here.chi2() => {
                         better = Some(next);
                         break;
@@ -466,7 +501,6 @@ impl<'a> Trial<'a> {
             }
             let Some(next) = better else { break };
             here = next;
-            most = most.min(MUCH * here.chi2());
             damping = (damping / 30.0).max(DAMPING);
         }
         here

@@ -23,6 +23,11 @@ pub struct Case {
 impl Case {
     /// Recordings of the robot of the concealed cases, wound by up to `angle` \[rad\], in noise.
     pub fn new(hidden: &Hidden<'_>, seed: u64, angle: f64) -> Self {
+        Self::on_mesh(hidden, seed, angle, (12, 14))
+    }
+
+    /// The same, its rods divided into a number of elements within these.
+    pub fn on_mesh(hidden: &Hidden<'_>, seed: u64, angle: f64, (least, most): (u32, u32)) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let shipped =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("scenarios/hsa_robot_concealed.ron");
@@ -41,7 +46,7 @@ impl Case {
                 scenario: {shipped:?}, seed: {seed},
                 controls: {controls}, singles: {singles}, doubles: 0, foreigners: {foreigners},
                 effects: {listed:?}, foreign: [{foreign}],
-                mesh: ("rods[0].elements", 12, 14), strength: (1, 1),
+                mesh: ("rods[0].elements", {least}, {most}), strength: (1, 1),
                 recordings: Simulated(
                     set_points: 9, angle: {angle:?}, speed: 1.05, hold: 1.5, rate: 9.26,
                     noise: (5e-5, 5e-4), bias: (1e-5, 1e-4), jitter: 2e-3,
