@@ -183,9 +183,6 @@ pub struct Bodies {
     pub(crate) kappa: Vectors,
     pub(crate) couple: Vectors,
     // loads
-    pub(crate) contact_force: Vectors,
-    pub(crate) contact_couple: Vectors,
-    pub(crate) transported_couple: Vectors,
     pub(crate) force: Vectors,
     pub(crate) torque: Vectors,
 }
@@ -363,9 +360,6 @@ impl Bodies {
             &mut self.rotation,
             &mut self.kappa,
             &mut self.couple,
-            &mut self.contact_force,
-            &mut self.contact_couple,
-            &mut self.transported_couple,
             &mut self.force,
             &mut self.torque,
         ] {

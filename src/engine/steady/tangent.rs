@@ -8,7 +8,7 @@ use super::unknowns::{Freedom, PER_STATION, Reach, Unknowns};
 use crate::bodies::State;
 use crate::group::Group;
 use crate::inputs::Moment;
-use crate::lanes::Rows;
+use crate::triple::Rows;
 use crate::rotation;
 use crate::system::System;
 use nalgebra::{Matrix6, Vector3, Vector6};
