@@ -60,7 +60,7 @@ mod tests {
             let x = f64::from(i) * 1e-5;
             for (ours, library) in exp_of_each(&[x, -0.3 * x]).iter().zip([x.exp(), (-0.3 * x).exp()]) {
                 let off = ((ours - library) / library).abs();
-                assert!(off <= f64::EPSILON, "{x}: {off:.1e}");
+                assert!(off <= 2.0 * f64::EPSILON, "{x}: {off:.1e}");
             }
         }
         assert!(exp_of_each(&[f64::NAN])[0].is_nan());

@@ -64,14 +64,17 @@ const fn alternating(first: f64, from: f64) -> [f64; 6] {
     c
 }
 
-/// Horner's rule.
+/// Horner's rule for even and odd powers each: two chains, which a processor follows at once.
 #[inline(always)]
 pub(crate) fn polynomial<T: Number, const N: usize>(coefficients: &[f64; N], x: T) -> T {
-    let mut value = x.constant(coefficients[N - 1]);
-    for i in (0..N - 1).rev() {
-        value = value * x + x.constant(coefficients[i]);
+    let square = x * x;
+    let mut last = x.constant(coefficients[N - 1]);
+    let mut other = x.constant(coefficients[N - 2]);
+    for i in (0..N - 2).rev() {
+        (last, other) = (other, last * square + x.constant(coefficients[i]));
     }
-    value
+    // `other` has the even powers
+    other + last * x
 }
 
 /// `1 + sinc [theta]x + cosc [theta]x^2` (Rodrigues).
