@@ -37,12 +37,16 @@ const SMALL: f64 = 1.0 / 64.0;
 #[allow(clippy::needless_range_loop)] // iterators needn't be inlined, which vectors need
 #[inline(always)]
 pub fn exp_of_each<const N: usize>(exponents: &[f64; N]) -> [f64; N] {
-    let (mut values, mut far) = ([0.0; N], 0.0);
+    let mut far = 0.0;
     for l in 0..N {
         far = if exponents[l].abs() <= SMALL { far } else { 1.0 };
-        values[l] = polynomial(&inverse_factorials::<7>(), exponents[l]);
     }
-    if far != 0.0 {
+    let mut values = [0.0; N];
+    if far == 0.0 {
+        for l in 0..N {
+            values[l] = polynomial(&inverse_factorials::<7>(), exponents[l]);
+        }
+    } else {
         for l in 0..N {
             values[l] = exp(exponents[l]);
         }

@@ -56,4 +56,4 @@ pub use site::{JointLoad, Place, Site, Wrench};
 pub use steady::{Branch, Sensitivities, Stability, SteadyOptions, SteadyReport, SteadySolver};
 pub use step::BlowUp;
 pub use system::System;
-pub use view::{Body, LawView, LoadView, PoseView, RateSlices, RateView, ReadBody};
+pub use view::{Body, LawView, LengthSlices, LoadView, PoseView, RateSlices, RateView, ReadBody};
