@@ -133,13 +133,10 @@ impl Decay<'_> {
             }
             if different != 0 {
                 keep = exp_of_each(&exponents);
-                for l in 0..LANES {
-                    keep[l] = if l < done { 1.0 } else { keep[l] };
-                }
                 last = exponents;
             }
             let omega = &mut omega[j][first..][..count];
-            for l in 0..count {
+            for l in done..count {
                 omega[l] *= keep[l];
             }
         }

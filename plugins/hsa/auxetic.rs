@@ -172,7 +172,8 @@ impl RodLaw for Auxetic {
         let (cells, last) = (rod.cells(), rod.elements() - 1);
         let shares = [0, last].map(|e| self.share(&cells, e));
         let lengths = rod.length_slices();
-        let winding = |v: usize| -self.handedness.sign() * lengths.turn[v] / lengths.twist_length[v];
+        let winding =
+            |v: usize| -self.handedness.sign() * lengths.turn[v] / lengths.twist_length[v];
         let mut before = winding(0);
         for e in 0..=last {
             let after = winding(e + 1);

@@ -39,7 +39,11 @@ const SMALL: f64 = 1.0 / 64.0;
 pub fn exp_of_each<const N: usize>(exponents: &[f64; N]) -> [f64; N] {
     let mut far = 0.0;
     for l in 0..N {
-        far = if exponents[l].abs() <= SMALL { far } else { 1.0 };
+        far = if exponents[l].abs() <= SMALL {
+            far
+        } else {
+            1.0
+        };
     }
     let mut values = [0.0; N];
     if far == 0.0 {
@@ -62,7 +66,10 @@ mod tests {
     fn small_arguments_agree_with_the_library_to_rounding() {
         for i in -2000..2000 {
             let x = f64::from(i) * 1e-5;
-            for (ours, library) in exp_of_each(&[x, -0.3 * x]).iter().zip([x.exp(), (-0.3 * x).exp()]) {
+            for (ours, library) in exp_of_each(&[x, -0.3 * x])
+                .iter()
+                .zip([x.exp(), (-0.3 * x).exp()])
+            {
                 let off = ((ours - library) / library).abs();
                 assert!(off <= 2.0 * f64::EPSILON, "{x}: {off:.1e}");
             }

@@ -68,11 +68,8 @@ impl Bodies {
 
     #[inline(always)]
     fn drift<L: Lanes, const TIMES: usize>(&mut self, all: Extent<L>, dt: f64) {
-                let state = &mut self.state;
-        let (velocity, omega) = (
-            state.velocity.blocks(all),
-            state.omega.blocks(all),
-        );
+        let state = &mut self.state;
+        let (velocity, omega) = (state.velocity.blocks(all), state.omega.blocks(all));
         let mut positions = state.position.blocks_mut(all);
         let mut directors = state.director.blocks_mut(all);
         let mut far = false;
@@ -117,20 +114,13 @@ impl Bodies {
         &mut self,
         all: Extent<L>,
     ) {
-                let (positions, directors) = (&self.state.position, &self.state.director);
+        let (positions, directors) = (&self.state.position, &self.state.director);
         let (position, next) = (positions.blocks(all), positions.after(all));
         let (director, previous) = (directors.blocks(all), directors.before(all));
-        let (element, element_before) =
-            (self.element.blocks(all), self.element.before(all));
+        let (element, element_before) = (self.element.blocks(all), self.element.before(all));
         let built = self.reference_length.blocks(all);
-        let (rest, rest_before) = (
-            self.rest_length.blocks(all),
-            self.rest_length.before(all),
-        );
-        let (cell, twist_length) = (
-            self.cell.blocks(all),
-            self.twist_length.blocks(all),
-        );
+        let (rest, rest_before) = (self.rest_length.blocks(all), self.rest_length.before(all));
+        let (cell, twist_length) = (self.cell.blocks(all), self.twist_length.blocks(all));
         let shear_stretch = self.shear_stretch.blocks(all);
         let rest_sigma = self.rest_sigma.blocks(all);
         let bend_twist = self.bend_twist.blocks(all);
@@ -247,7 +237,10 @@ impl Bodies {
                 forces.set(b, force - rotated.force.with_first_of(last.force));
                 let bending = couple - rotated.couple.with_first_of(last.couple);
                 let transport = transported + rotated.transported.with_first_of(last.transported);
-                torques.set(b, bending + transport + rotated.shear.with_first_of(last.shear));
+                torques.set(
+                    b,
+                    bending + transport + rotated.shear.with_first_of(last.shear),
+                );
                 last = rotated;
             }
         }
@@ -271,15 +264,12 @@ impl Bodies {
 
     #[inline(always)]
     fn kick<L: Lanes>(&mut self, all: Extent<L>, dt: f64) {
-                let inertia = self.inertia.blocks(all);
+        let inertia = self.inertia.blocks(all);
         let inverse_inertia = self.inverse_inertia.blocks(all);
         let (force, torque) = (self.force.blocks(all), self.torque.blocks(all));
         let inverse_mass = self.inverse_mass.blocks(all);
         let tangent = self.tangent.blocks(all);
-        let (length, dilatation) = (
-            self.length.blocks(all),
-            self.dilatation.blocks(all),
-        );
+        let (length, dilatation) = (self.length.blocks(all), self.dilatation.blocks(all));
         // with the block after the last, whose first station is read
         let mut velocities = self.state.velocity.blocks_mut(all.and_next());
         let mut omegas = self.state.omega.blocks_mut(all);

@@ -54,8 +54,8 @@ impl OverLanes for PlainlySound<'_> {
         let turn = bodies.rotation.blocks(all);
         for b in 0..all.count {
             // no number where a rate is infinite or none
-            let rates = velocity.at(b).scaled(0.0) + omega.at(b).scaled(0.0);
-            let zero = rates.x + rates.y + rates.z;
+            let rates = velocity.at(b) + omega.at(b);
+            let zero = (rates.x + rates.y + rates.z) * 0.0;
             let (stretch, turn) = (dilatation.at(b), turn.at(b).squared());
             let least = stretch.constant(STRETCH.start);
             let long = least.at_most(stretch);

@@ -3,9 +3,7 @@
 //! Arrays begin with an entry or more before the first station and end with some after the last, so that blocks of
 //! stations and their neighbours can be read everywhere.
 
-use crate::columns::{
-    Column, ColumnMut, Columns, ColumnsMut, Extent, RowColumns, RowColumnsMut,
-};
+use crate::columns::{Column, ColumnMut, Columns, ColumnsMut, Extent, RowColumns, RowColumnsMut};
 use crate::number::Lanes;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Index, IndexMut, Range};
@@ -218,15 +216,22 @@ impl Vectors {
     #[inline]
     pub fn slices(&self, range: Range<usize>) -> [&[f64]; 3] {
         let [x, y, z] = &self.components;
-        [x, y, z].map(|c| &c.as_slice()[range.clone()])
+        [
+            &x.as_slice()[range.clone()],
+            &y.as_slice()[range.clone()],
+            &z.as_slice()[range],
+        ]
     }
 
     /// The components of the vectors `range`, each one slice.
     #[inline]
     pub fn slices_mut(&mut self, range: Range<usize>) -> [&mut [f64]; 3] {
-        self.components
-            .each_mut()
-            .map(|c| &mut c.as_mut_slice()[range.clone()])
+        let [x, y, z] = &mut self.components;
+        [
+            &mut x.as_mut_slice()[range.clone()],
+            &mut y.as_mut_slice()[range.clone()],
+            &mut z.as_mut_slice()[range],
+        ]
     }
 
     /// Whether every number is finite. A sum is enough: an infinity or a NaN survives it.

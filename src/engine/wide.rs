@@ -23,7 +23,9 @@ impl<W: OverLanes> WithSimd for Dispatched<W> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) -> W::Output {
         #[cfg(target_arch = "x86_64")]
-        if S::IS_SCALAR && let Some(baseline) = pulp::x86::V1::try_new() {
+        if S::IS_SCALAR
+            && let Some(baseline) = pulp::x86::V1::try_new()
+        {
             return self.0.over::<crate::pair::Pair>(baseline);
         }
         self.0.over::<Wide<S>>(simd)
