@@ -182,20 +182,18 @@ impl Bodies {
 
             let (rest, rest_before) = (rest.at(b), rest_before.at(b));
             let stretch = length / rest;
-            // At a wall a cell has half of its only element.
             let no_cell = cell.at(b).is_zero();
             let rotated_length = length.rotated();
             let length_before = rotated_length.with_first_of(last_length);
             last_length = rotated_length;
-            let rest_voronoi = (element_before * rest_before + element * rest) * 0.5;
-            let voronoi = (element_before * length_before + element * length) * 0.5;
-            let rest_voronoi = one.select(no_cell, rest_voronoi);
-            let voronoi = one.select(no_cell, voronoi);
-            // Twist is referred to its own length, so that a law that lengthens the rod need not dilute it.
-            let twist_length = twist_length.at(b);
-            // one division for three
-            let per_all = one / (rest_voronoi * voronoi * twist_length);
-            let per_rest_voronoi = voronoi * twist_length * per_all;
+            // At a wall a cell has half of its only element.
+            let at_rest = (element_before * rest_before + element * rest) * 0.5;
+            let present = (element_before * length_before + element * length) * 0.5;
+            let voronoi = Voronoi::new(
+                one.select(no_cell, at_rest),
+                one.select(no_cell, present),
+                twist_length.at(b),
+            );
 
             let (stress, kappa, couple);
             if STRAIN {
@@ -203,17 +201,17 @@ impl Bodies {
                 sigma.z = sigma.z - one;
                 stress = (sigma - rest_sigma.at(b)).times(shear_stretch.at(b));
                 kappa = triple(
-                    turn.x * per_rest_voronoi,
-                    turn.y * per_rest_voronoi,
-                    turn.z * (rest_voronoi * voronoi * per_all),
+                    turn.x * voronoi.per_rest,
+                    turn.y * voronoi.per_rest,
+                    turn.z * voronoi.per_twist,
                 );
                 let elastic = (kappa - rest_kappa.at(b)).times(bend_twist.at(b));
                 couple = elastic.zero_where(no_cell);
                 dilatations.set(b, stretch);
                 sigmas.set(b, sigma);
                 stresses.set(b, stress);
-                rest_voronois.set(b, rest_voronoi);
-                voronoi_dilatations.set(b, voronoi * per_rest_voronoi);
+                rest_voronois.set(b, voronoi.rest);
+                voronoi_dilatations.set(b, voronoi.dilatation);
                 kappas.set(b, kappa);
                 couples.set(b, couple);
             } else {
@@ -224,9 +222,9 @@ impl Bodies {
                 let force = director.transposed_times(stress) * (rest * per_length);
                 let shear = director.times(tangent).cross(stress) * rest;
                 // couples over their dilatation cubed, and the halves of them that the cells' own rotations transport
-                let shrink = rest_voronoi * (rest_voronoi * twist_length * per_all);
-                let couple = couple * (shrink * shrink * shrink);
-                let transported = kappa.cross(couple) * (rest_voronoi * 0.5);
+                let squeeze = voronoi.per_dilatation;
+                let couple = couple * (squeeze * squeeze * squeeze);
+                let transported = kappa.cross(couple) * (voronoi.rest * 0.5);
 
                 let rotated = Contact {
                     force: force.rotated(),
@@ -234,14 +232,12 @@ impl Bodies {
                     transported: transported.rotated(),
                     shear: shear.rotated(),
                 };
-                forces.set(b, force - rotated.force.with_first_of(last.force));
-                let bending = couple - rotated.couple.with_first_of(last.couple);
-                let transport = transported + rotated.transported.with_first_of(last.transported);
-                torques.set(
-                    b,
-                    bending + transport + rotated.shear.with_first_of(last.shear),
-                );
+                let before = rotated.with_first_of(&last);
                 last = rotated;
+                forces.set(b, force - before.force);
+                let (bending, transport) =
+                    (couple - before.couple, transported + before.transported);
+                torques.set(b, bending + transport + before.shear);
             }
         }
     }
@@ -294,6 +290,32 @@ impl Bodies {
     }
 }
 
+/// Lengths of cells, and one over them.
+struct Voronoi<L> {
+    rest: L,
+    per_rest: L,
+    /// One over the length that twist is referred to: its own, so that a law that lengthens the rod need not dilute it.
+    per_twist: L,
+    dilatation: L,
+    per_dilatation: L,
+}
+
+impl<L: Lanes> Voronoi<L> {
+    #[inline(always)]
+    fn new(rest: L, present: L, twist: L) -> Self {
+        // one division for all
+        let per_all = rest.constant(1.0) / (rest * present * twist);
+        let per_rest = present * twist * per_all;
+        Self {
+            rest,
+            per_rest,
+            per_twist: rest * present * per_all,
+            dilatation: present * per_rest,
+            per_dilatation: rest * (rest * twist * per_all),
+        }
+    }
+}
+
 /// What elements and cells pass on to their neighbours.
 struct Contact<L> {
     /// Forces of elements, world.
@@ -304,6 +326,19 @@ struct Contact<L> {
     transported: Triple<L>,
     /// Torques of elements from shear.
     shear: Triple<L>,
+}
+
+impl<L: Lanes> Contact<L> {
+    /// See [`Lanes::with_first_of`].
+    #[inline(always)]
+    fn with_first_of(&self, others: &Self) -> Self {
+        Self {
+            force: self.force.with_first_of(others.force),
+            couple: self.couple.with_first_of(others.couple),
+            transported: self.transported.with_first_of(others.transported),
+            shear: self.shear.with_first_of(others.shear),
+        }
+    }
 }
 
 /// What changes angular velocities.
