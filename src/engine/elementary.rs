@@ -17,7 +17,7 @@ const fn inverse_factorials<const N: usize>() -> [f64; N] {
 /// The exponential series up to the power `N`: rounded but once where it is near 1.
 #[inline(always)]
 fn series<const N: usize>(x: f64) -> f64 {
-    1.0 + x * polynomial(&inverse_factorials::<N>(), x)
+    1.0 + x * polynomial(&const { inverse_factorials::<N>() }, x)
 }
 
 /// Adding it rounds to a whole number, which the last bits then hold.
