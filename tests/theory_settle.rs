@@ -58,7 +58,10 @@ fn a_column_beyond_eulers_load_settles_on_the_elastica() {
         steady.advance(&mut model.system, 0.0).unwrap();
         let after = tip(&model, "rod");
         assert!((after - before).norm() < 1e-6, "{before:?}, {after:?}");
-        assert!(steady.stability(&mut model.system).unwrap().is_stable());
+        // All but the small force lets the column turn about the load's line: this is known to the rounding of differences,
+        // where upright it would fall with rates whose squares are of the order of 10.
+        let least = steady.stability(&mut model.system).unwrap().least;
+        assert!(least > -1e-3, "{least}");
         let deflection = 2.0 * modulus(multiple) / load.sqrt();
         let off = after.x / deflection - 1.0;
         println!(

@@ -1,6 +1,6 @@
 //! Exponential damping of rates.
 
-use auxetica_engine::elementary::exp;
+use auxetica_engine::elementary::exp_of_each;
 use auxetica_engine::{Damping, RateSlices, RateView, ReadBody, Setting, Vec3, register};
 use pulp::{Simd, WithSimd};
 use schemars::JsonSchema;
@@ -57,20 +57,10 @@ struct Decay<'a> {
 /// Elements whose exponentials are computed together.
 const LANES: usize = 8;
 
-#[allow(clippy::needless_range_loop)] // iterators needn't be inlined, which vectors need
-#[inline(always)]
-fn exp_of_each(exponents: &[f64; LANES]) -> [f64; LANES] {
-    let mut values = [0.0; LANES];
-    for l in 0..LANES {
-        values[l] = exp(exponents[l]);
-    }
-    values
-}
-
 impl WithSimd for Decay<'_> {
     type Output = ();
 
-    #[allow(clippy::needless_range_loop)]
+    #[allow(clippy::needless_range_loop)] // iterators needn't be inlined, which vectors need
     #[inline(always)]
     fn with_simd<S: Simd>(mut self, _: S) {
         let mut exponents = [0.0; LANES];
@@ -143,13 +133,10 @@ impl Decay<'_> {
             }
             if different != 0 {
                 keep = exp_of_each(&exponents);
-                for l in 0..LANES {
-                    keep[l] = if l < done { 1.0 } else { keep[l] };
-                }
                 last = exponents;
             }
             let omega = &mut omega[j][first..][..count];
-            for l in 0..count {
+            for l in done..count {
                 omega[l] *= keep[l];
             }
         }

@@ -169,15 +169,25 @@ impl RodLaw for Auxetic {
             twist,
         } = self.slopes;
         let trajectory = self.trajectory();
-        let cells = rod.cells();
-        let mut before = self.winding_or_zero(rod, &cells, 0);
-        for e in 0..rod.elements() {
-            let after = self.winding_or_zero(rod, &cells, e + 1);
-            let winding = (before + after) * self.share(&cells, e);
+        let (cells, last) = (rod.cells(), rod.elements() - 1);
+        let shares = [0, last].map(|e| self.share(&cells, e));
+        let lengths = rod.length_slices();
+        let winding =
+            |v: usize| -self.handedness.sign() * lengths.turn[v] / lengths.twist_length[v];
+        let mut before = winding(0);
+        for e in 0..=last {
+            let after = winding(e + 1);
+            let share = match e {
+                0 => shares[0],
+                _ if e == last => shares[1],
+                _ => 0.5,
+            };
+            let extension = trajectory.extension((before + after) * share);
             before = after;
-            let extension = trajectory.extension(winding);
-            rod.set_rest_length(e, rod.reference_length(e) * (1.0 + extension));
-            if shear != 0.0 || axial != 0.0 {
+            lengths.rest_length[e] = lengths.reference_length[e] * (1.0 + extension);
+        }
+        if shear != 0.0 || axial != 0.0 {
+            for e in 0..=last {
                 let change = Vector3::new(shear, shear, axial) * self.for_rigidity(rod, e);
                 rod.set_shear_stretch(e, rod.built_shear_stretch(e) + change);
             }

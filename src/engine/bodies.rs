@@ -149,6 +149,10 @@ pub struct Bodies {
     pub(crate) state: State,
     /// Frames of the walls at start and tip of every body; read only where [`Layout::walled`] says so.
     pub(crate) walls: Vec<[Matrix3<f64>; 2]>,
+    /// Whether laws have changed rigidities since they were as built.
+    pub(crate) stiffened: bool,
+    /// Whether laws have added to stresses or couples in the last evaluation.
+    pub(crate) stressed: bool,
     /// The instructions that passes are compiled for.
     pub(crate) arch: pulp::Arch,
     /// 1 where the element exists, else 0.
@@ -183,9 +187,6 @@ pub struct Bodies {
     pub(crate) kappa: Vectors,
     pub(crate) couple: Vectors,
     // loads
-    pub(crate) contact_force: Vectors,
-    pub(crate) contact_couple: Vectors,
-    pub(crate) transported_couple: Vectors,
     pub(crate) force: Vectors,
     pub(crate) torque: Vectors,
 }
@@ -287,8 +288,10 @@ impl Bodies {
     /// Rest lengths and rigidities as built, for laws to start from.
     pub(crate) fn as_built(&mut self) {
         self.rest_length.copy_from(&self.reference_length);
-        self.shear_stretch.copy_from(&self.built_shear_stretch);
-        self.bend_twist.copy_from(&self.built_bend_twist);
+        if std::mem::take(&mut self.stiffened) {
+            self.shear_stretch.copy_from(&self.built_shear_stretch);
+            self.bend_twist.copy_from(&self.built_bend_twist);
+        }
     }
 
     /// Adds a rigid body at rest and returns its index.
@@ -363,9 +366,6 @@ impl Bodies {
             &mut self.rotation,
             &mut self.kappa,
             &mut self.couple,
-            &mut self.contact_force,
-            &mut self.contact_couple,
-            &mut self.transported_couple,
             &mut self.force,
             &mut self.torque,
         ] {

@@ -95,11 +95,19 @@ impl Group {
         for l in &self.laws {
             l.hook.rest(now, &mut l.view(&mut self.bodies));
         }
-        self.bodies.sweep(Pass::Strain);
+        // Few laws add to stresses: unless they did in the last evaluation, that is seen to when they have.
+        let apart = std::mem::take(&mut self.bodies.stressed);
+        self.bodies.sweep(if apart {
+            Pass::Strain
+        } else {
+            Pass::StrainAndLoads
+        });
         for l in &self.laws {
             l.hook.stress(now, &mut l.view(&mut self.bodies));
         }
-        self.bodies.sweep(Pass::Loads);
+        if apart || self.bodies.stressed {
+            self.bodies.sweep(Pass::Loads);
+        }
     }
 
     /// Lets laws remember the present state.

@@ -7,6 +7,7 @@
 //! are in the material frame of their element or cell. Indices count from a body's first node.
 
 pub mod bodies;
+mod columns;
 mod connection;
 pub mod critical;
 pub mod cylinder;
@@ -17,7 +18,9 @@ pub mod hooks;
 pub mod implicit;
 pub mod inputs;
 mod kernel;
-mod lanes;
+mod number;
+#[cfg(target_arch = "x86_64")]
+mod pair;
 pub mod rod;
 pub mod rotation;
 pub mod run;
@@ -28,9 +31,11 @@ pub mod stability;
 pub mod steady;
 mod step;
 pub mod system;
+mod triple;
 mod varied;
 pub mod vectors;
 pub mod view;
+mod wide;
 
 pub use auxetica_config::{
     Count, Direction, Finite, Nested, NonNegative, Positive, Profile, Vec3, register,
@@ -51,4 +56,4 @@ pub use site::{JointLoad, Place, Site, Wrench};
 pub use steady::{Branch, Sensitivities, Stability, SteadyOptions, SteadyReport, SteadySolver};
 pub use step::BlowUp;
 pub use system::System;
-pub use view::{Body, LawView, LoadView, PoseView, RateSlices, RateView, ReadBody};
+pub use view::{Body, LawView, LengthSlices, LoadView, PoseView, RateSlices, RateView, ReadBody};

@@ -1,8 +1,9 @@
 //! Whether a state still resembles rods and rigid bodies.
 
 use crate::bodies::{Bodies, Layout};
-use crate::lanes::{LANES, ZERO, triple};
-use pulp::{Simd, WithSimd};
+use crate::columns::Extent;
+use crate::number::Lanes;
+use crate::wide::{OverLanes, dispatch};
 
 /// Dilatations beyond which a simulation has blown up.
 pub(crate) const STRETCH: std::ops::Range<f64> = 1e-3..1e3;
@@ -13,7 +14,7 @@ const TANGLED: f64 = 2.0;
 impl Bodies {
     /// Whether rates are finite numbers and elements still resemble what the model is made for.
     pub(crate) fn is_sound(&self) -> bool {
-        self.arch.dispatch(PlainlySound(self))
+        dispatch(self.arch, PlainlySound(self))
             || (self.state.velocity.all_finite()
                 && self.state.omega.all_finite()
                 && self
@@ -38,32 +39,33 @@ impl Bodies {
 /// Whether all is sound and not even one cell is turned far.
 struct PlainlySound<'a>(&'a Bodies);
 
-impl WithSimd for PlainlySound<'_> {
+impl OverLanes for PlainlySound<'_> {
     type Output = bool;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> bool {
+    fn over<L: Lanes>(self, token: L::Token) -> bool {
         let bodies = self.0;
-        let all = bodies.blocks();
+        let all = Extent::<L>::new(token, bodies.stations());
         let (velocity, omega) = (
             bodies.state.velocity.blocks(all),
             bodies.state.omega.blocks(all),
         );
-        let (dilatation, turn) = (bodies.dilatation.blocks(all), bodies.rotation.blocks(all));
-        let mut faults = ZERO;
+        let dilatation = bodies.dilatation.blocks(all);
+        let turn = bodies.rotation.blocks(all);
         for b in 0..all.count {
-            let (velocity, omega) = (velocity.at(b), omega.at(b));
-            let (dilatation, turn) = (&dilatation[b], turn.at(b));
-            for l in 0..LANES {
-                // zero, or no number where a rate is infinite or none
-                let zero = (velocity.get(l) * 0.0 + omega.get(l) * 0.0).dot(triple(1.0, 1.0, 1.0));
-                let sound = (zero == 0.0)
-                    & (dilatation[l] >= STRETCH.start)
-                    & (dilatation[l] < STRETCH.end)
-                    & (turn.get(l).squared() <= TANGLED * TANGLED);
-                faults[l] += if sound { 0.0 } else { 1.0 };
+            // no number where a rate is infinite or none
+            let rates = velocity.at(b) + omega.at(b);
+            let zero = (rates.x + rates.y + rates.z) * 0.0;
+            let (stretch, turn) = (dilatation.at(b), turn.at(b).squared());
+            let least = stretch.constant(STRETCH.start);
+            let long = least.at_most(stretch);
+            let short = stretch.at_most(stretch.constant(STRETCH.end.next_down()));
+            let turned = turn.at_most(turn.constant(TANGLED * TANGLED));
+            let shaped = zero.both(zero.both(long, short), turned);
+            if !zero.everywhere(zero.both(zero.is_zero(), shaped)) {
+                return false;
             }
         }
-        faults.iter().sum::<f64>() < 0.5
+        true
     }
 }

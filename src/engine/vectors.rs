@@ -3,23 +3,25 @@
 //! Arrays begin with an entry or more before the first station and end with some after the last, so that blocks of
 //! stations and their neighbours can be read everywhere.
 
-use crate::lanes::{
-    LANES, Lanes, MatrixBlocks, MatrixBlocksMut, Span, VectorBlocks, VectorBlocksMut,
-};
+use crate::columns::{Column, ColumnMut, Columns, ColumnsMut, Extent, RowColumns, RowColumnsMut};
+use crate::number::Lanes;
 use nalgebra::{Matrix3, Vector3};
 use std::ops::{Index, IndexMut, Range};
 
 /// Numbers, one a station.
 #[derive(Debug, Default)]
 pub struct Scalars {
-    /// At least a zero, the numbers, and the last of them again up to the end of the block after theirs.
+    /// At least a zero, the numbers, and the last of them again up to the end of the block after the one that holds the
+    /// station after theirs.
     padded: Vec<f64>,
     /// Where the first number is: at the start of a cache line, since blocks across two of them are slow.
     first: usize,
     len: usize,
 }
 
-/// Bytes of a cache line, and of a block.
+/// Numbers in a cache line, and in the longest blocks.
+const LANES: usize = 8;
+/// Bytes of a cache line.
 const LINE: usize = LANES * size_of::<f64>();
 
 impl Scalars {
@@ -35,7 +37,7 @@ impl Scalars {
 
     /// Appends a number.
     pub fn push(&mut self, value: f64) {
-        let blocks = (self.len + 1).div_ceil(LANES) + 1;
+        let blocks = (self.len + 1) / LANES + 2;
         // An odd number of lines, lest arrays that are allocated one after the other share their places in the cache.
         let lines = (1 + blocks) | 1;
         self.padded.resize(lines * LANES, 0.0);
@@ -79,36 +81,34 @@ impl Scalars {
         self.padded[self.first..][..used].copy_from_slice(&other.padded[other.first..][..used]);
     }
 
-    /// Blocks from `shift - 1` stations after theirs on.
-    #[inline(always)]
-    fn shifted(&self, shift: usize, at: Span) -> &[Lanes] {
-        let first = self.first - 1 + shift + at.start * LANES;
-        &self.padded[first..].as_chunks().0[..at.count]
-    }
-
     /// The blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self, at: Span) -> &[Lanes] {
-        self.shifted(1, at)
+    pub(crate) fn blocks<L: Lanes>(&self, all: Extent<L>) -> Column<'_, L> {
+        Column::new(all, &self.padded[self.first..])
     }
 
     /// The stations before those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, at: Span) -> &[Lanes] {
-        self.shifted(0, at)
+    pub(crate) fn before<L: Lanes>(&self, all: Extent<L>) -> Column<'_, L> {
+        Column::new(all, &self.padded[self.first - 1..])
     }
 
     /// The stations after those of [`Scalars::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, at: Span) -> &[Lanes] {
-        self.shifted(2, at)
+    pub(crate) fn after<L: Lanes>(&self, all: Extent<L>) -> Column<'_, L> {
+        Column::new(all, &self.padded[self.first + 1..])
     }
 
     /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn blocks_mut(&mut self, at: Span) -> &mut [Lanes] {
-        let first = self.first + at.start * LANES;
-        &mut self.padded[first..].as_chunks_mut().0[..at.count]
+    pub(crate) fn blocks_mut<L: Lanes>(&mut self, all: Extent<L>) -> ColumnMut<'_, L> {
+        ColumnMut::new(all, &mut self.padded[self.first..])
+    }
+
+    /// The stations before those of [`Scalars::blocks`], to be changed.
+    #[inline(always)]
+    pub(crate) fn before_mut<L: Lanes>(&mut self, all: Extent<L>) -> ColumnMut<'_, L> {
+        ColumnMut::new(all, &mut self.padded[self.first - 1..])
     }
 }
 
@@ -216,15 +216,22 @@ impl Vectors {
     #[inline]
     pub fn slices(&self, range: Range<usize>) -> [&[f64]; 3] {
         let [x, y, z] = &self.components;
-        [x, y, z].map(|c| &c.as_slice()[range.clone()])
+        [
+            &x.as_slice()[range.clone()],
+            &y.as_slice()[range.clone()],
+            &z.as_slice()[range],
+        ]
     }
 
     /// The components of the vectors `range`, each one slice.
     #[inline]
     pub fn slices_mut(&mut self, range: Range<usize>) -> [&mut [f64]; 3] {
-        self.components
-            .each_mut()
-            .map(|c| &mut c.as_mut_slice()[range.clone()])
+        let [x, y, z] = &mut self.components;
+        [
+            &mut x.as_mut_slice()[range.clone()],
+            &mut y.as_mut_slice()[range.clone()],
+            &mut z.as_mut_slice()[range],
+        ]
     }
 
     /// Whether every number is finite. A sum is enough: an infinity or a NaN survives it.
@@ -235,30 +242,37 @@ impl Vectors {
 
     /// The blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self, at: Span) -> VectorBlocks<'_> {
+    pub(crate) fn blocks<L: Lanes>(&self, all: Extent<L>) -> Columns<'_, L> {
         let [x, y, z] = &self.components;
-        VectorBlocks([x.blocks(at), y.blocks(at), z.blocks(at)])
+        Columns([x.blocks(all), y.blocks(all), z.blocks(all)])
     }
 
     /// The stations before those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, at: Span) -> VectorBlocks<'_> {
+    pub(crate) fn before<L: Lanes>(&self, all: Extent<L>) -> Columns<'_, L> {
         let [x, y, z] = &self.components;
-        VectorBlocks([x.before(at), y.before(at), z.before(at)])
+        Columns([x.before(all), y.before(all), z.before(all)])
     }
 
     /// The stations after those of [`Vectors::blocks`].
     #[inline(always)]
-    pub(crate) fn after(&self, at: Span) -> VectorBlocks<'_> {
+    pub(crate) fn after<L: Lanes>(&self, all: Extent<L>) -> Columns<'_, L> {
         let [x, y, z] = &self.components;
-        VectorBlocks([x.after(at), y.after(at), z.after(at)])
+        Columns([x.after(all), y.after(all), z.after(all)])
     }
 
     /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn blocks_mut(&mut self, at: Span) -> VectorBlocksMut<'_> {
+    pub(crate) fn blocks_mut<L: Lanes>(&mut self, all: Extent<L>) -> ColumnsMut<'_, L> {
         let [x, y, z] = &mut self.components;
-        VectorBlocksMut([x.blocks_mut(at), y.blocks_mut(at), z.blocks_mut(at)])
+        ColumnsMut([x.blocks_mut(all), y.blocks_mut(all), z.blocks_mut(all)])
+    }
+
+    /// The stations before those of [`Vectors::blocks`], to be changed.
+    #[inline(always)]
+    pub(crate) fn before_mut<L: Lanes>(&mut self, all: Extent<L>) -> ColumnsMut<'_, L> {
+        let [x, y, z] = &mut self.components;
+        ColumnsMut([x.before_mut(all), y.before_mut(all), z.before_mut(all)])
     }
 }
 
@@ -303,22 +317,22 @@ impl Matrices {
 
     /// The blocks.
     #[inline(always)]
-    pub(crate) fn blocks(&self, at: Span) -> MatrixBlocks<'_> {
+    pub(crate) fn blocks<L: Lanes>(&self, all: Extent<L>) -> RowColumns<'_, L> {
         let [a, b, c] = &self.rows;
-        MatrixBlocks([a.blocks(at), b.blocks(at), c.blocks(at)])
+        RowColumns([a.blocks(all), b.blocks(all), c.blocks(all)])
     }
 
     /// The stations before those of [`Matrices::blocks`].
     #[inline(always)]
-    pub(crate) fn before(&self, at: Span) -> MatrixBlocks<'_> {
+    pub(crate) fn before<L: Lanes>(&self, all: Extent<L>) -> RowColumns<'_, L> {
         let [a, b, c] = &self.rows;
-        MatrixBlocks([a.before(at), b.before(at), c.before(at)])
+        RowColumns([a.before(all), b.before(all), c.before(all)])
     }
 
     /// The blocks, to be changed.
     #[inline(always)]
-    pub(crate) fn blocks_mut(&mut self, at: Span) -> MatrixBlocksMut<'_> {
+    pub(crate) fn blocks_mut<L: Lanes>(&mut self, all: Extent<L>) -> RowColumnsMut<'_, L> {
         let [a, b, c] = &mut self.rows;
-        MatrixBlocksMut([a.blocks_mut(at), b.blocks_mut(at), c.blocks_mut(at)])
+        RowColumnsMut([a.blocks_mut(all), b.blocks_mut(all), c.blocks_mut(all)])
     }
 }

@@ -299,7 +299,34 @@ writing_view! {
     RateView
 }
 
+/// Lengths and twists of a rod as slices, for loops that must be fast.
+pub struct LengthSlices<'a> {
+    /// Rest lengths of elements \[m\].
+    pub rest_length: &'a mut [f64],
+    /// Lengths of elements as built \[m\].
+    pub reference_length: &'a [f64],
+    /// Rotations about d3 across cells, one a node; 0 where there is no cell \[rad\].
+    pub turn: &'a [f64],
+    /// Lengths that the twists of cells are referred to, one a node \[m\].
+    pub twist_length: &'a [f64],
+}
+
 impl LawView<'_> {
+    /// Lengths and twists at once, for loops over the whole rod.
+    #[inline]
+    pub fn length_slices(&mut self) -> LengthSlices<'_> {
+        let layout = &self.bodies.layouts[self.index];
+        let (elements, nodes) = (
+            layout.element_stations(),
+            layout.first..layout.first + layout.nodes(),
+        );
+        LengthSlices {
+            rest_length: &mut self.bodies.rest_length.as_mut_slice()[elements.clone()],
+            reference_length: &self.bodies.reference_length.as_slice()[elements],
+            turn: self.bodies.rotation.slices(nodes.clone())[2],
+            twist_length: &self.bodies.twist_length.as_slice()[nodes],
+        }
+    }
     /// Present rigidities of element `e`, as the laws before have left them: shear, shear, axial \[N\].
     #[inline]
     pub fn shear_stretch(&self, e: usize) -> Vector3<f64> {
@@ -326,12 +353,14 @@ impl LawView<'_> {
     #[inline]
     pub fn set_shear_stretch(&mut self, e: usize, rigidity: Vector3<f64>) {
         let k = self.at(e);
+        self.bodies.stiffened = true;
         self.bodies.shear_stretch.set(k, rigidity);
     }
     /// Sets the rigidities of cell `v`: bending, bending, twist \[N m2\].
     #[inline]
     pub fn set_bend_twist(&mut self, v: usize, rigidity: Vector3<f64>) {
         let k = self.at(v);
+        self.bodies.stiffened = true;
         self.bodies.bend_twist.set(k, rigidity);
     }
     /// Sets the intrinsic shear and stretch strains of element `e` \[-\].
@@ -350,12 +379,14 @@ impl LawView<'_> {
     #[inline]
     pub fn add_stress(&mut self, e: usize, stress: Vector3<f64>) {
         let k = self.at(e);
+        self.bodies.stressed = true;
         self.bodies.stress.add(k, stress);
     }
     /// Adds to the internal couple of cell `v`, material frame \[N m\].
     #[inline]
     pub fn add_couple(&mut self, v: usize, couple: Vector3<f64>) {
         let k = self.at(v);
+        self.bodies.stressed = true;
         self.bodies.couple.add(k, couple);
     }
 }

@@ -8,9 +8,9 @@ use super::unknowns::{Freedom, PER_STATION, Reach, Unknowns};
 use crate::bodies::State;
 use crate::group::Group;
 use crate::inputs::Moment;
-use crate::lanes::Rows;
 use crate::rotation;
 use crate::system::System;
+use crate::triple::Rows;
 use nalgebra::{Matrix6, Vector3, Vector6};
 use std::ops::Range;
 
