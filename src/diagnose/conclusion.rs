@@ -256,7 +256,8 @@ fn noticeable(
     effects: &[Box<dyn Effect>],
 ) -> Vec<Noticeable> {
     let trial = &baseline.trial;
-    let most = (SOUND - 1.0) * trial.measured();
+    // as much as noise leaves below what there is to explain
+    let most = (SOUND - baseline.mean_square()) * trial.measured();
     let causes = (0..forms.len()).filter(|form| effects[forms[*form].effect].is_cause());
     let found = search::noticeable(trial, &baseline.fit, forms, causes.collect(), most);
     let notice = |(form, share): (usize, f64)| {

@@ -9,7 +9,7 @@ use super::search::Form;
 use super::standing::GAIN;
 use super::trial::version;
 use super::verdict::{Estimated, LoadScore, Loads, Named};
-use super::{DiagnoseError, LEFT, ODDS, SOUND, unfit};
+use super::{DiagnoseError, LEFT, ODDS, SOUND_AS_MEASURED, unfit};
 use crate::config::Source;
 use crate::engine::scenario::{MotorLoads, Scenario};
 use crate::identify::{Effect, Estimate, Fit, Options, Parameter, Variant, fit};
@@ -86,7 +86,7 @@ impl Hearing<'_> {
         let before = self.fitted(vec![]).map_err(unfit)?;
         let mut now = before.clone();
         let mut probabilities = Vec::new();
-        while now.fit.chi2 > SOUND * self.measured() && now.forms.len() < MOST {
+        while now.fit.chi2 > SOUND_AS_MEASURED * self.measured() && now.forms.len() < MOST {
             let Some((next, probability)) = self.grown(&now).map_err(unfit)? else {
                 break;
             };

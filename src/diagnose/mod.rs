@@ -37,8 +37,11 @@ use std::path::PathBuf;
 use trial::Trial;
 use verdict::Diagnosis;
 
-/// Mean squared residual up to which there is nothing to explain.
+/// Mean squared residual of poses up to which there is nothing to explain: what they are allowed for noise and mesh is more
+/// than they need.
 const SOUND: f64 = 1.0;
+/// The same of loads and curves, which are allowed what was measured.
+const SOUND_AS_MEASURED: f64 = 1.5;
 /// Mean squared residual beyond which what is left is not explained, however much is.
 const LEFT: f64 = 4.0;
 /// Difference of scaled chi2 within which two effects can't be told apart: odds of 20 to 1.

@@ -12,7 +12,7 @@ mod rod;
 mod search;
 pub mod verdict;
 
-use super::{DiagnoseError, SOUND, chosen};
+use super::{DiagnoseError, SOUND_AS_MEASURED, chosen};
 use crate::config::Source;
 use conclusion::conclude;
 use hypothesis::{Group, Hypothesis};
@@ -78,7 +78,7 @@ pub fn diagnose_curves(
     told(0.1);
     let squares: f64 = free.iter().map(|fit| fit.chi2).sum();
     let degrees: usize = free.iter().map(|fit| fit.degrees_of_freedom).sum();
-    let sound = squares < SOUND * degrees.max(1) as f64;
+    let sound = squares < SOUND_AS_MEASURED * degrees.max(1) as f64;
     let forms = search::forms(&effects, &rods)?;
     let held_out = search::held_out(&base, &[], &groups).map_err(unsolved)?;
     let found = match sound {
