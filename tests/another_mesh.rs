@@ -7,7 +7,7 @@ use common::concealed::{Case, Hidden};
 
 #[test]
 fn what_a_mesh_does_is_told_from_physics_that_is_missing() {
-    // 10 elements for the scenario's 14: some three floors apart
+    // 10 elements for the scenario's 14: some four floors apart, once calibrated
     let case = Case::on_mesh(&Hidden::Nothing, 3, 6.0, (10, 10));
     let (d, _) = case.diagnosed(&["gravity"]);
     assert_eq!(d.verdict, Kind::None, "{}", d.words);

@@ -35,7 +35,9 @@ pub(super) fn conclude(
     let worsened = last.scores.worsened(&baseline.scores);
     let mut all: Vec<&dyn Effect> = last.named.iter().map(|(f, _)| &**effect(*f)).collect();
     all.dedup_by_key(|effect| effect.id());
-    let mut kind = kind(baseline, last, (explained, !worsened.is_empty()), &all);
+    let astray = alarms::astray(last);
+    let doubtful = !worsened.is_empty() || !astray.is_empty();
+    let mut kind = kind(baseline, last, (explained, doubtful), &all);
     let noticeable = match kind {
         Kind::None => noticeable(baseline, forms, effects),
         _ => vec![],
@@ -43,7 +45,6 @@ pub(super) fn conclude(
     if 2 * unseen(&noticeable) > noticeable.len() {
         kind = Kind::Insufficient;
     }
-    let astray = alarms::astray(last);
     let fitted = estimates(last);
     let named = name_all(last, forms, effects, &fitted[own.len()..], baseline);
     let alike: Vec<&dyn Effect> = (last.named.last().map(|(f, _)| effect(*f)).into_iter())
@@ -139,7 +140,7 @@ fn experiment(last: &Standing<'_>, alike: &[&dyn Effect], floor: &Floor) -> Expe
 fn kind(
     baseline: &Standing<'_>,
     last: &Standing<'_>,
-    (explained, worsens): (f64, bool),
+    (explained, doubtful): (f64, bool),
     named: &[&dyn Effect],
 ) -> Kind {
     let left = last.mean_square();
@@ -148,9 +149,8 @@ fn kind(
         [] => Kind::Unexplained,
         // what is left is noise, however little there was to explain
         _ if explained < EXPLAINED && left >= SOUND => Kind::Unexplained,
-        _ if worsens || left > LEFT => Kind::Unexplained,
-        // a cause that must be stronger than it can be stands for another
-        _ if !last.trial.astray(&last.tolerant).is_empty() => Kind::Unexplained,
+        // a cause that makes a recording worse, or must be stronger than it can be, stands for another
+        _ if doubtful || left > LEFT => Kind::Unexplained,
         // so many, and still not all of it: they imitate something else
         _ if named.len() == MOST && left >= SOUND => Kind::Unexplained,
         // what only describes explains nothing unless it leaves nothing

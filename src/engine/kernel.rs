@@ -27,9 +27,9 @@ pub(crate) enum Pass {
     /// Internal forces on nodes \[N\] and torques on elements \[N m\] from stresses and couples; overwrites the loads
     /// (eq. 3.2, 3.3 without the inertial terms).
     Loads,
-    /// Both, for laws that add nothing to stresses and couples.
+    /// [`Pass::Strain`] and [`Pass::Loads`], for laws that add nothing to stresses and couples.
     StrainAndLoads,
-    /// All three, for rods without laws or walls.
+    /// All from [`Pass::Measure`] on, for rods without laws or walls.
     Elastic,
     /// Velocities and angular velocities after a time \[s\] under the present loads (eq. 2.16, 2.17).
     Kick(f64),
